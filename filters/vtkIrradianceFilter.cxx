@@ -1,0 +1,3 @@
+#include "vtkIrradianceFilter.h"
+#include "vtkObjectFactory.h"
+vtkStandardNewMacro(vtkIrradianceFilter);

@@ -1,0 +1,3 @@
+"""Radiometric lighting for VTK: the wrapped classes in one place."""
+from .vtkRadiometryFilters import *
+from .vtkRadiometryRendering import *

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// The names of the arrays through which the parts of the project (and its users) meet.
+/// Meaning, components and units: docs/arrays.md.
+namespace radiometry
+{
+namespace names
+{
+
+// Surface (cell data, or field data of one tuple for a whole block)
+inline constexpr char DiffuseReflectance[] = "DiffuseReflectance";
+inline constexpr char SpecularReflectance[] = "SpecularReflectance";
+inline constexpr char Shininess[] = "Shininess";
+inline constexpr char EmittedExitance[] = "EmittedExitance";
+inline constexpr char Transmittance[] = "Transmittance";
+inline constexpr char Ambient[] = "Ambient";
+inline constexpr char TwoSided[] = "TwoSided"; // 0 or 1 per cell; overrides the filter's property
+inline constexpr char BackPrefix[] = "Back";   // BackDiffuseReflectance, ...
+
+// Lights (point data, one vertex a light)
+inline constexpr char LightType[] = "LightType";
+inline constexpr char Intensity[] = "Intensity";
+inline constexpr char Direction[] = "Direction";
+inline constexpr char SpotCutoff[] = "SpotCutoff";
+inline constexpr char SpotInnerCutoff[] = "SpotInnerCutoff"; // degrees; < 0: a hard edge
+inline constexpr char SpotExponent[] = "SpotExponent";
+inline constexpr char Attenuation[] = "Attenuation";
+inline constexpr char LightEnabled[] = "LightEnabled";
+inline constexpr char AmbientColor[] = "AmbientColor";
+inline constexpr char SpecularColor[] = "SpecularColor";
+inline constexpr char PhotometricWeb[] = "PhotometricWeb";
+inline constexpr char AttachedTo[] = "AttachedTo";
+
+// Results
+inline constexpr char Irradiance[] = "Irradiance";
+inline constexpr char Radiosity[] = "Radiosity";
+inline constexpr char Radiance[] = "Radiance";
+inline constexpr char Illuminance[] = "Illuminance";
+inline constexpr char LuminousExitance[] = "LuminousExitance";
+inline constexpr char Luminance[] = "Luminance";
+inline constexpr char BackSuffix[] = "Back";   // IrradianceBack, ...
+inline constexpr char ErrorSuffix[] = "Error"; // IrradianceError, ...
+
+// Sensors
+inline constexpr char Normals[] = "Normals";
+
+} // namespace names
+} // namespace radiometry

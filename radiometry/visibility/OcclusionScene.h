@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/scene/Scene.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace radiometry
+{
+
+/// What a ray meets first.
+struct SurfaceHit
+{
+  std::int32_t Triangle = -1; // -1: nothing
+  bool Front = false;         // met from its front
+  double Distance = 0.0;      // in units of the direction's length
+  double U = 0.0;             // the hit is (1-u-v) p0 + u p1 + v p2
+  double V = 0.0;
+};
+
+/// A point from or to which light is followed: the triangle on whose plane it lies exactly, or -1
+/// for a point in free space.
+struct RayEnd
+{
+  Vec3 Point;
+  std::int32_t Triangle = -1;
+};
+
+/// Visibility among the triangles of a scene: Embree in coordinates recentred and scaled to the
+/// unit box, with every hit near either end of a ray decided again in double, the end taken as
+/// exactly on its own plane. No offset in metres; a triangle never hides its own points; triangles
+/// coplanar with an end's triangle do not hide it.
+///
+/// Thread-safe after construction.
+class OcclusionScene
+{
+public:
+  explicit OcclusionScene(const Scene& scene);
+  ~OcclusionScene();
+  OcclusionScene(const OcclusionScene&) = delete;
+  OcclusionScene& operator=(const OcclusionScene&) = delete;
+
+  /// True when the segment between the two ends is blocked.
+  bool Occluded(const RayEnd& from, const RayEnd& to) const;
+  /// True when the ray from `from` along `direction` (any length) meets anything.
+  bool OccludedDirection(const RayEnd& from, const Vec3& direction) const;
+  /// The first triangle along a ray.
+  SurfaceHit Closest(const RayEnd& from, const Vec3& direction) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Impl;
+};
+
+} // namespace radiometry

@@ -1,0 +1,3 @@
+#include "vtkRadiometricSurfaceRepresentation.h"
+#include "vtkObjectFactory.h"
+vtkStandardNewMacro(vtkRadiometricSurfaceRepresentation);

@@ -1,0 +1,3 @@
+#include "vtkPhongGouraudMapper.h"
+#include "vtkObjectFactory.h"
+vtkStandardNewMacro(vtkPhongGouraudMapper);
