@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/scene/Vec3.h"
+
+#include <cstdint>
+
+namespace radiometry
+{
+
+/// A piece of one side of the surface: the unit of receiving and of sending light.
+struct Patch
+{
+  Triangle3 Corners;           // counter-clockwise seen from the side that this patch stands for
+  std::int32_t Triangle = -1;  // the scene's triangle on whose plane it lies
+  std::int32_t Cell = -1;      // the caller's cell
+  std::uint8_t Side = 0;       // 0 front of the cell, 1 back
+};
+
+/// A place on (or off) the surface with the normal that light is received about.
+struct SurfacePoint
+{
+  Vec3 Point;
+  Vec3 Normal;                // unit
+  std::int32_t Triangle = -1; // the scene's triangle on whose plane it lies; -1: a free sensor
+};
+
+} // namespace radiometry
