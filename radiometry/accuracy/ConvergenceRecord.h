@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace radiometry
+{
+
+/// How the estimated error of a run fell as it spent time: the rows of the Convergence table.
+class ConvergenceRecord
+{
+public:
+  struct Row
+  {
+    double Seconds;       // since the run began
+    double RelativeError; // estimated: area-weighted mean error over area-weighted mean value
+    double AbsoluteError; // the area-weighted mean error in the unit of the result
+    std::int64_t Samples; // rays, pairs or iterations spent so far
+    std::string Stage;
+  };
+
+  /// Seconds since construction.
+  double Elapsed() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+  void Add(std::string stage, double relativeError, double absoluteError, std::int64_t samples)
+  {
+    this->Rows.push_back(
+      { this->Elapsed(), relativeError, absoluteError, samples, std::move(stage) });
+  }
+
+  std::vector<Row> Rows;
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+};
+
+} // namespace radiometry

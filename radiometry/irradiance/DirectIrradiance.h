@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/scene/Parallel.h"
+#include "radiometry/scene/Patch.h"
+#include "radiometry/scene/Scene.h"
+#include "radiometry/visibility/OcclusionScene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace radiometry
+{
+
+struct DirectOptions
+{
+  double RelativeTolerance = 0.01; // of each value's error, relative to the value
+  double AbsoluteTolerance = 0.0;  // W/m^2; whichever of the two is met first
+  double SecondsLeft = 0.0;        // refine no further after that many seconds; 0: no limit
+  bool Occlusion = true;
+  bool SpotShape = true;   // false: spots light all directions with their axial intensity
+  bool Attenuation = true; // false: legacy attenuation is taken as inverse square
+  int Threads = 0;         // 0: all
+};
+
+struct DirectResult
+{
+  int Bands = 1;
+  std::vector<double> Irradiance; // patches (points) x bands, W/m^2
+  std::vector<double> Error;      // the same shape
+  std::int64_t Rays = 0;
+  bool TimedOut = false;
+};
+
+/// Direct irradiance, averaged over each patch, from the enabled lights of the scene.
+///   Model   E = (1/A) sum_k int V_k I_k(w) cos(theta)/r^2 dA
+///   Exact   (rounding error only) for every light of physical attenuation on a patch that no
+///           silhouette edge crosses as seen from the light; refined to the tolerance elsewhere
+///   Cost    O(patches x lights) closed forms and one ray each, times log(occluders)
+///   Bytes   the same for any number of threads
+DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage = {},
+  ConvergenceRecord* record = nullptr);
+
+/// Direct irradiance at points, about their normals.
+DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<SurfacePoint>& points, const DirectOptions& options,
+  const StageProgress& stage = {}, ConvergenceRecord* record = nullptr);
+
+} // namespace radiometry
