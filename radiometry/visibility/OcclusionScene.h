@@ -25,6 +25,9 @@ struct RayEnd
 {
   Vec3 Point;
   std::int32_t Triangle = -1;
+  /// Closer to a surface than single precision can tell (see OcclusionScene::TooClose): rays of
+  /// this end are decided in double throughout. Set for free points; found out for others.
+  bool Close = false;
 };
 
 /// Visibility among the triangles of a scene: Embree in coordinates recentred and scaled to the
@@ -45,6 +48,9 @@ public:
   bool Occluded(const RayEnd& from, const RayEnd& to) const;
   /// True when the ray from `from` along `direction` (any length) meets anything.
   bool OccludedDirection(const RayEnd& from, const Vec3& direction) const;
+  /// True when a free point (a light, a sensor) lies so near a triangle that its rays must be
+  /// decided in double: what RayEnd::Close should be.
+  bool TooClose(const Vec3& point) const;
   /// The first triangle along a ray.
   SurfaceHit Closest(const RayEnd& from, const Vec3& direction) const;
 

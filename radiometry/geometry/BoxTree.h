@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/scene/Vec3.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace radiometry
+{
+
+/// An axis-aligned box; empty when just made.
+struct Box3
+{
+  Vec3 Min{ std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity() };
+  Vec3 Max{ -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
+
+  void Add(const Vec3& p)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      this->Min[a] = p[a] < this->Min[a] ? p[a] : this->Min[a];
+      this->Max[a] = p[a] > this->Max[a] ? p[a] : this->Max[a];
+    }
+  }
+  void Add(const Box3& b)
+  {
+    this->Add(b.Min);
+    this->Add(b.Max);
+  }
+  bool Empty() const { return this->Min.x > this->Max.x; }
+  Vec3 Center() const { return 0.5 * (this->Min + this->Max); }
+  Vec3 Size() const { return this->Max - this->Min; }
+};
+
+/// A bounding volume hierarchy over boxes, in double: for conservative searches that single
+/// precision must not decide. O(n log n) to build; the order of visits does not depend on threads.
+class BoxTree
+{
+public:
+  BoxTree() = default;
+  explicit BoxTree(const std::vector<Box3>& boxes);
+
+  bool Empty() const { return this->Nodes.empty(); }
+
+  /// Visits every item whose box (and all boxes above it) passes `reaches(box)`. `visit(item)`
+  /// returns false to end the search; then Visit returns false too.
+  template <typename Reaches, typename VisitItem>
+  bool Visit(const Reaches& reaches, const VisitItem& visit) const
+  {
+    if (this->Nodes.empty())
+    {
+      return true;
+    }
+    std::int32_t stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0)
+    {
+      const std::int32_t at = stack[--top];
+      const Node& node = this->Nodes[at];
+      if (!reaches(node.Bounds))
+      {
+        continue;
+      }
+      if (node.Count > 0)
+      {
+        for (std::int32_t k = 0; k < node.Count; ++k)
+        {
+          if (!visit(this->Items[node.First + k]))
+          {
+            return false;
+          }
+        }
+      }
+      else
+      {
+        stack[top++] = node.First;
+        stack[top++] = at + 1;
+      }
+    }
+    return true;
+  }
+
+private:
+  struct Node
+  {
+    Box3 Bounds;
+    std::int32_t First = 0; // leaf: first item; inner: the second child (the first is the next node)
+    std::int32_t Count = 0; // leaf: items; inner: 0
+  };
+  void Build(const std::vector<Box3>& boxes, std::int32_t begin, std::int32_t end);
+
+  std::vector<Node> Nodes;
+  std::vector<std::int32_t> Items;
+};
+
+} // namespace radiometry

@@ -1,0 +1,555 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/visibility/OcclusionScene.h"
+
+#include "radiometry/geometry/BoxTree.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+#include <string>
+
+namespace radiometry
+{
+namespace
+{
+
+// All lengths below are in units of the scene's box, whose greatest extent lies in (0.5, 1].
+
+// A single-precision ray starts that far behind its true start and ends that far behind its true
+// end, so that rounding (6e-8) cannot make it miss what touches an end. What it finds there
+// without right is rejected in double.
+constexpr double EndMargin = 1.0 / 65536.0;
+// An end closer than this to a triangle's plane lies on it: rounding of coordinates in [-1, 1].
+constexpr double OnPlane = 1e-14;
+// How far outside a triangle, relative to its edge functions, a hit near an end may be before
+// single precision cannot have meant one of its neighbours.
+constexpr double NeighbourMargin = 4e-6;
+
+// An end closer than this to the rim of its own triangle, or to any other triangle, may fall on
+// the wrong side of a neighbour when rounded: such rays are decided in double alone.
+constexpr double Closeness = 5e-7;
+
+/// A ray in double, with what the filter needs to judge a hit.
+struct RayQuery
+{
+  Vec3 Start;
+  Vec3 Direction;              // unit
+  double Length = 0.0;         // may be infinite
+  std::int32_t FromTriangle = -1;
+  std::int32_t ToTriangle = -1;
+  const std::vector<Triangle3>* Triangles = nullptr;
+  bool Ambiguous = false;      // single precision met a triangle's rim near an end
+  bool Exact = false;          // an end is too close to a surface for single precision
+};
+
+enum class Verdict
+{
+  Miss,
+  Hit,
+  RimMiss // outside by so little that a neighbour may have been meant
+};
+
+/// Decides in double whether the open segment of `ray` crosses triangle `t`. With `strict`, the
+/// crossing must be inside the triangle; without, only the plane is judged (single precision has
+/// found the inside, watertight across shared edges).
+Verdict Judge(const RayQuery& ray, std::int32_t t, bool strict, double& distance)
+{
+  if (t == ray.FromTriangle || t == ray.ToTriangle)
+  {
+    return Verdict::Miss;
+  }
+  const Triangle3& v = (*ray.Triangles)[t];
+  const Vec3 n = Normalized(AreaNormal2(v));
+  const double h0 = Dot(n, ray.Start - v[0]);
+  const double rate = Dot(n, ray.Direction);
+  if (std::fabs(h0) <= OnPlane || h0 * rate >= 0.0)
+  {
+    return Verdict::Miss; // starts on the plane or moves away from it
+  }
+  distance = -h0 / rate;
+  if (std::isfinite(ray.Length))
+  {
+    const double h1 = Dot(n, ray.Start + ray.Length * ray.Direction - v[0]);
+    if (std::fabs(h1) <= OnPlane || (h0 > 0.0) == (h1 > 0.0))
+    {
+      return Verdict::Miss;
+    }
+  }
+  if (!strict)
+  {
+    return Verdict::Hit;
+  }
+  // Edge functions: volumes of the ray with each edge; equal signs (or zero) mean inside. An edge
+  // is always taken in the same direction, so that both its triangles compute the same number.
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  double scale = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    Vec3 a = v[k];
+    Vec3 b = v[(k + 1) % 3];
+    const bool swap = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
+    if (swap)
+    {
+      std::swap(a, b);
+    }
+    const double volume = Dot(ray.Direction, Cross(a - ray.Start, b - ray.Start));
+    scale = std::max(scale, Length(b - a));
+    least = std::min(least, swap ? -volume : volume);
+    most = std::max(most, swap ? -volume : volume);
+  }
+  if (least >= 0.0 || most <= 0.0)
+  {
+    return Verdict::Hit;
+  }
+  const double outside = std::min(-least, most);
+  return outside < NeighbourMargin * scale ? Verdict::RimMiss : Verdict::Miss;
+}
+
+#if RTC_VERSION_MAJOR >= 4
+using FilterContext = RTCRayQueryContext;
+#else
+using FilterContext = RTCIntersectContext;
+#endif
+
+struct QueryContext
+{
+  FilterContext Context; // first: Embree hands back its address
+  RayQuery* Query;
+};
+
+void Filter(const RTCFilterFunctionNArguments* args)
+{
+  RayQuery& query = *reinterpret_cast<QueryContext*>(args->context)->Query;
+  for (unsigned int i = 0; i < args->N; ++i)
+  {
+    if (args->valid[i] == 0)
+    {
+      continue;
+    }
+    const auto t = static_cast<std::int32_t>(RTCHitN_primID(args->hit, args->N, i));
+    const double along = RTCRayN_tfar(args->ray, args->N, i) - EndMargin;
+    const bool nearEnd =
+      along < 2.0 * EndMargin || along > query.Length - 2.0 * EndMargin;
+    double distance = 0.0;
+    const Verdict verdict = Judge(query, t, nearEnd, distance);
+    if (verdict != Verdict::Hit)
+    {
+      args->valid[i] = 0;
+      query.Ambiguous = query.Ambiguous || verdict == Verdict::RimMiss;
+    }
+  }
+}
+
+RTCDevice Device()
+{
+  // One device for the process: creating one costs milliseconds. Never released: Embree's own
+  // threads may outlive static destructors.
+  static RTCDevice device = rtcNewDevice(nullptr);
+  if (!device)
+  {
+    throw std::runtime_error("Embree could not be initialised");
+  }
+  return device;
+}
+
+} // namespace
+
+struct OcclusionScene::Internals
+{
+  Vec3 Center;
+  double Scale = 1.0;
+  Box3 Bounds; // of the scaled triangles
+  std::vector<Triangle3> Triangles;
+  BoxTree Tree;
+  RTCScene Handle = nullptr;
+
+  ~Internals()
+  {
+    if (this->Handle)
+    {
+      rtcReleaseScene(this->Handle);
+    }
+  }
+
+  Vec3 ToBox(const Vec3& p) const { return this->Scale * (p - this->Center); }
+
+  /// The part of the ray inside the scene's box, or false when it passes by.
+  bool Clip(const RayQuery& q, double& begin, double& end) const
+  {
+    begin = 0.0;
+    end = q.Length;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double lo = this->Bounds.Min[a] - EndMargin - q.Start[a];
+      const double hi = this->Bounds.Max[a] + EndMargin - q.Start[a];
+      const double d = q.Direction[a];
+      if (d == 0.0)
+      {
+        if (lo > 0.0 || hi < 0.0)
+        {
+          return false;
+        }
+        continue;
+      }
+      begin = std::max(begin, std::min(lo / d, hi / d));
+      end = std::min(end, std::max(lo / d, hi / d));
+    }
+    return begin <= end;
+  }
+
+  /// Everything in double: for the rare ray that single precision cannot decide.
+  SurfaceHit ExactClosest(const RayQuery& q, double begin, double end) const
+  {
+    SurfaceHit best;
+    best.Distance = std::numeric_limits<double>::infinity();
+    const Vec3 a = q.Start + begin * q.Direction;
+    const Vec3 b = q.Start + end * q.Direction;
+    const auto reaches = [&](const Box3& box) {
+      double lo = 0.0;
+      double hi = 1.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const double d = b[k] - a[k];
+        const double l = box.Min[k] - 1e-12 - a[k];
+        const double h = box.Max[k] + 1e-12 - a[k];
+        if (d == 0.0)
+        {
+          if (l > 0.0 || h < 0.0)
+          {
+            return false;
+          }
+          continue;
+        }
+        lo = std::max(lo, std::min(l / d, h / d));
+        hi = std::min(hi, std::max(l / d, h / d));
+      }
+      return lo <= hi;
+    };
+    this->Tree.Visit(reaches, [&](std::int32_t t) {
+      double distance = 0.0;
+      if (Judge(q, t, true, distance) == Verdict::Hit &&
+        (distance < best.Distance || (distance == best.Distance && t < best.Triangle)))
+      {
+        best.Triangle = t;
+        best.Distance = distance;
+      }
+      return true;
+    });
+    return best;
+  }
+
+  /// True when `p`, on triangle t, is close to the triangle's rim.
+  bool NearRim(const Vec3& p, std::int32_t t) const
+  {
+    const Triangle3& v = this->Triangles[t];
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 edge = v[(k + 1) % 3] - v[k];
+      const Vec3 across = Cross(edge, p - v[k]);
+      if (LengthSquared(across) < Closeness * Closeness * LengthSquared(edge))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  RayQuery MakeQuery(const RayEnd& from, const Vec3& direction) const
+  {
+    RayQuery q;
+    q.Start = this->ToBox(from.Point);
+    q.Direction = Normalized(direction);
+    q.Length = std::numeric_limits<double>::infinity();
+    q.FromTriangle = from.Triangle;
+    q.Triangles = &this->Triangles;
+    q.Exact = from.Close || (from.Triangle >= 0 && this->NearRim(q.Start, from.Triangle));
+    return q;
+  }
+
+  static void FillRay(RTCRay& ray, const RayQuery& q, double begin, double end)
+  {
+    const Vec3 start = q.Start + (begin - EndMargin) * q.Direction;
+    ray.org_x = static_cast<float>(start.x);
+    ray.org_y = static_cast<float>(start.y);
+    ray.org_z = static_cast<float>(start.z);
+    ray.dir_x = static_cast<float>(q.Direction.x);
+    ray.dir_y = static_cast<float>(q.Direction.y);
+    ray.dir_z = static_cast<float>(q.Direction.z);
+    ray.tnear = 0.0f;
+    ray.tfar = static_cast<float>(end - begin + 2.0 * EndMargin);
+    ray.time = 0.0f;
+    ray.mask = ~0u;
+    ray.id = 0;
+    ray.flags = 0;
+  }
+
+  /// Where a ray starts outside the box, the filter's measure of "near the start" moves with it.
+  static RayQuery From(const RayQuery& q, double begin)
+  {
+    RayQuery moved = q;
+    moved.Start = q.Start + begin * q.Direction;
+    moved.Length = q.Length - begin;
+    return moved;
+  }
+
+  bool Occluded(RayQuery q) const
+  {
+    double begin = 0.0;
+    double end = 0.0;
+    if (!this->Handle || !(q.Length > 0.0) || !this->Clip(q, begin, end))
+    {
+      return false;
+    }
+    if (q.Exact)
+    {
+      return this->ExactClosest(q, begin, end).Triangle >= 0;
+    }
+    if (begin > 0.0)
+    {
+      q = From(q, begin);
+      end -= begin;
+      begin = 0.0;
+    }
+    RTCRay ray;
+    FillRay(ray, q, begin, end);
+    QueryContext context;
+    context.Query = &q;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context.Context);
+    RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &context.Context;
+    args.filter = &Filter;
+    args.flags = static_cast<RTCRayQueryFlags>(
+      RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | RTC_RAY_QUERY_FLAG_INCOHERENT);
+    rtcOccluded1(this->Handle, &ray, &args);
+#else
+    rtcInitIntersectContext(&context.Context);
+    context.Context.filter = &Filter;
+    rtcOccluded1(this->Handle, &context.Context, &ray);
+#endif
+    if (ray.tfar < 0.0f)
+    {
+      return true;
+    }
+    return q.Ambiguous && this->ExactClosest(q, begin, end).Triangle >= 0;
+  }
+
+  SurfaceHit Closest(RayQuery q) const
+  {
+    double begin = 0.0;
+    double end = 0.0;
+    if (!this->Handle || !this->Clip(q, begin, end))
+    {
+      return {};
+    }
+    if (q.Exact)
+    {
+      SurfaceHit exact = this->ExactClosest(q, begin, end);
+      if (exact.Triangle < 0)
+      {
+        return {};
+      }
+      this->Complete(q, exact);
+      return exact;
+    }
+    const double skipped = begin;
+    if (begin > 0.0)
+    {
+      q = From(q, begin);
+      end -= begin;
+      begin = 0.0;
+    }
+    RTCRayHit hit;
+    FillRay(hit.ray, q, begin, end);
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
+    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context;
+    context.Query = &q;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context.Context);
+    RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &context.Context;
+    args.filter = &Filter;
+    args.flags = static_cast<RTCRayQueryFlags>(
+      RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | RTC_RAY_QUERY_FLAG_INCOHERENT);
+    rtcIntersect1(this->Handle, &hit, &args);
+#else
+    rtcInitIntersectContext(&context.Context);
+    context.Context.filter = &Filter;
+    rtcIntersect1(this->Handle, &context.Context, &hit);
+#endif
+    SurfaceHit result;
+    if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+    {
+      result.Triangle = static_cast<std::int32_t>(hit.hit.primID);
+      result.Distance = hit.ray.tfar - EndMargin;
+    }
+    if (q.Ambiguous)
+    {
+      const SurfaceHit exact = this->ExactClosest(q, begin, end);
+      if (exact.Triangle >= 0 && (result.Triangle < 0 || exact.Distance < result.Distance))
+      {
+        result = exact;
+      }
+    }
+    if (result.Triangle < 0)
+    {
+      return {};
+    }
+    this->Complete(q, result);
+    result.Distance += skipped;
+    return result;
+  }
+
+  /// Side, distance and barycentric coordinates of a hit, in double.
+  void Complete(const RayQuery& q, SurfaceHit& hit) const
+  {
+    const Triangle3& v = this->Triangles[hit.Triangle];
+    const Vec3 n = AreaNormal2(v);
+    const double rate = Dot(n, q.Direction);
+    hit.Front = rate < 0.0;
+    hit.Distance = -Dot(n, q.Start - v[0]) / rate;
+    const Vec3 p = q.Start + hit.Distance * q.Direction - v[0];
+    const double nn = Dot(n, n);
+    hit.U = std::clamp(Dot(n, Cross(p, v[2] - v[0])) / nn, 0.0, 1.0);
+    hit.V = std::clamp(Dot(n, Cross(v[1] - v[0], p)) / nn, 0.0, 1.0 - hit.U);
+  }
+};
+
+OcclusionScene::OcclusionScene(const Scene& scene)
+  : Impl(std::make_unique<Internals>())
+{
+  const std::size_t count = scene.Triangles.size();
+  if (count == 0)
+  {
+    return;
+  }
+  Box3 bounds;
+  for (const auto& t : scene.Triangles)
+  {
+    for (const std::int32_t p : t)
+    {
+      bounds.Add(scene.Points[p]);
+    }
+  }
+  const Vec3 size = bounds.Size();
+  this->Impl->Center = bounds.Center();
+  // A power of two: scaling is exact.
+  this->Impl->Scale = std::exp2(-std::ceil(std::log2(std::max({ size.x, size.y, size.z }))));
+
+  std::vector<Box3> boxes(count);
+  this->Impl->Triangles.resize(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    Triangle3& scaled = this->Impl->Triangles[t];
+    const Triangle3 original = scene.TriangleAt(t);
+    for (int k = 0; k < 3; ++k)
+    {
+      scaled[k] = this->Impl->ToBox(original[k]);
+      boxes[t].Add(scaled[k]);
+    }
+    this->Impl->Bounds.Add(boxes[t]);
+  }
+  this->Impl->Tree = BoxTree(boxes);
+
+  RTCDevice device = Device();
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+    RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene.Points.size()));
+  auto* indices = static_cast<unsigned int*>(rtcSetNewGeometryBuffer(
+    geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned int), count));
+  if (!vertices || !indices)
+  {
+    rtcReleaseGeometry(geometry);
+    throw std::runtime_error("Embree could not allocate the geometry of " + std::to_string(count) +
+      " triangles");
+  }
+  for (std::size_t p = 0; p < scene.Points.size(); ++p)
+  {
+    const Vec3 scaled = this->Impl->ToBox(scene.Points[p]);
+    for (int a = 0; a < 3; ++a)
+    {
+      vertices[3 * p + a] = static_cast<float>(scaled[a]);
+    }
+  }
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      indices[3 * t + k] = static_cast<unsigned int>(scene.Triangles[t][k]);
+    }
+  }
+  rtcCommitGeometry(geometry);
+  this->Impl->Handle = rtcNewScene(device);
+#if RTC_VERSION_MAJOR >= 4
+  rtcSetSceneFlags(this->Impl->Handle,
+    static_cast<RTCSceneFlags>(
+      RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS));
+#else
+  rtcSetSceneFlags(this->Impl->Handle,
+    static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+#endif
+  rtcAttachGeometry(this->Impl->Handle, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(this->Impl->Handle);
+}
+
+OcclusionScene::~OcclusionScene() = default;
+
+bool OcclusionScene::Occluded(const RayEnd& from, const RayEnd& to) const
+{
+  RayQuery q = this->Impl->MakeQuery(from, to.Point - from.Point);
+  q.Length = this->Impl->Scale * Length(to.Point - from.Point);
+  q.ToTriangle = to.Triangle;
+  q.Exact = q.Exact || to.Close ||
+    (to.Triangle >= 0 && this->Impl->NearRim(this->Impl->ToBox(to.Point), to.Triangle));
+  return this->Impl->Occluded(q);
+}
+
+bool OcclusionScene::OccludedDirection(const RayEnd& from, const Vec3& direction) const
+{
+  return this->Impl->Occluded(this->Impl->MakeQuery(from, direction));
+}
+
+bool OcclusionScene::TooClose(const Vec3& point) const
+{
+  const Vec3 p = this->Impl->ToBox(point);
+  const auto reaches = [&](const Box3& box) {
+    for (int a = 0; a < 3; ++a)
+    {
+      if (p[a] < box.Min[a] - Closeness || p[a] > box.Max[a] + Closeness)
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  return !this->Impl->Tree.Visit(reaches, [&](std::int32_t t) {
+    const Triangle3& v = this->Impl->Triangles[t];
+    return std::fabs(Dot(Normalized(AreaNormal2(v)), p - v[0])) > Closeness;
+  });
+}
+
+SurfaceHit OcclusionScene::Closest(const RayEnd& from, const Vec3& direction) const
+{
+  SurfaceHit hit = this->Impl->Closest(this->Impl->MakeQuery(from, direction));
+  if (hit.Triangle >= 0)
+  {
+    hit.Distance /= this->Impl->Scale * Length(direction);
+  }
+  return hit;
+}
+
+} // namespace radiometry
