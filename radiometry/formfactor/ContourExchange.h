@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/geometry/PolygonFormFactor.h"
+
+namespace radiometry
+{
+
+/// The double contour integral (1/2pi) contour int contour int ln r dr_i.dr_j of two convex
+/// polygons that lie wholly in front of each other. `error` gets the estimated error: what the
+/// last halving of the step changed, and the digits that the sum of the edges lost.
+double ContourExchange(
+  const SmallPolygon& outer, const SmallPolygon& inner, double relativeTolerance, double& error);
+
+} // namespace radiometry

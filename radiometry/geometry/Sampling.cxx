@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/geometry/Sampling.h"
+
+#include <algorithm>
+
+namespace radiometry
+{
+namespace
+{
+
+/// Direction numbers of dimensions 2 to 4 (degree s, coefficients a and first m of the primitive
+/// polynomials tabulated by Joe and Kuo, 2008); dimension 1 is the van der Corput sequence.
+struct DirectionNumbers
+{
+  std::uint32_t V[4][32];
+
+  DirectionNumbers()
+  {
+    struct Polynomial
+    {
+      int s;
+      std::uint32_t a;
+      std::uint32_t m[3];
+    };
+    const Polynomial polynomials[3] = { { 1, 0, { 1, 0, 0 } }, { 2, 1, { 1, 3, 0 } },
+      { 3, 1, { 1, 3, 1 } } };
+    for (int k = 0; k < 32; ++k)
+    {
+      this->V[0][k] = 0x80000000u >> k;
+    }
+    for (int d = 1; d < 4; ++d)
+    {
+      const Polynomial& p = polynomials[d - 1];
+      for (int k = 0; k < 32; ++k)
+      {
+        if (k < p.s)
+        {
+          this->V[d][k] = p.m[k] << (31 - k);
+          continue;
+        }
+        std::uint32_t v = this->V[d][k - p.s] ^ (this->V[d][k - p.s] >> p.s);
+        for (int j = 1; j < p.s; ++j)
+        {
+          if ((p.a >> (p.s - 1 - j)) & 1u)
+          {
+            v ^= this->V[d][k - j];
+          }
+        }
+        this->V[d][k] = v;
+      }
+    }
+  }
+};
+
+const DirectionNumbers Numbers;
+
+} // namespace
+
+std::uint32_t SobolSequence::Digits(std::uint32_t index, int dimension)
+{
+  std::uint32_t x = 0;
+  for (const std::uint32_t* v = Numbers.V[dimension]; index; index >>= 1, ++v)
+  {
+    if (index & 1u)
+    {
+      x ^= *v;
+    }
+  }
+  return x;
+}
+
+Vec3 CosineDirection(const Vec3& n, double u, double v)
+{
+  // Concentric map of the square to the disc (Shirley and Chiu 1997), lifted to the hemisphere.
+  const double a = 2.0 * u - 1.0;
+  const double b = 2.0 * v - 1.0;
+  double r = 0.0, phi = 0.0;
+  constexpr double quarter = 0.78539816339744830962;
+  if (std::abs(a) > std::abs(b))
+  {
+    r = a;
+    phi = quarter * (b / a);
+  }
+  else if (b != 0.0)
+  {
+    r = b;
+    phi = 2.0 * quarter - quarter * (a / b);
+  }
+  const double x = r * std::cos(phi);
+  const double y = r * std::sin(phi);
+  // 1 - r^2 as a product keeps its digits near the horizon.
+  const double z = std::sqrt(std::max(0.0, (1.0 - std::abs(r)) * (1.0 + std::abs(r))));
+  Vec3 s, t;
+  Frame(n, s, t);
+  return x * s + y * t + z * n;
+}
+
+} // namespace radiometry
