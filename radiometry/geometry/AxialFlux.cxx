@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/geometry/AxialFlux.h"
+
+#include "radiometry/geometry/SolidAngle.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace radiometry
+{
+namespace
+{
+
+const double Pi = std::acos(-1.0);
+
+/// Ten points of Gauss-Legendre on [-1, 1] (half of them; the rule is symmetric).
+constexpr std::array<double, 5> GaussX{ 0.1488743389816312108848260, 0.4333953941292471907992659,
+  0.6794095682990244062343274, 0.8650633666889845107320967, 0.9739065285171717200779640 };
+constexpr std::array<double, 5> GaussW{ 0.2955242247147528701738930, 0.2692667193099963550912269,
+  0.2190863625159820439955349, 0.1494513491505805931457763, 0.0666713443086881375935688 };
+
+template <typename Function>
+double Gauss(double a, double b, const Function& f)
+{
+  const double middle = 0.5 * (a + b);
+  const double half = 0.5 * (b - a);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < GaussX.size(); ++k)
+  {
+    sum += GaussW[k] * (f(middle - half * GaussX[k]) + f(middle + half * GaussX[k]));
+  }
+  return half * sum;
+}
+
+/// int of x^(n-1) from c to 1, from the versine 1 - c: exact near the axis.
+double PowerIntegral(double n, double versine)
+{
+  return versine >= 1.0 ? 1.0 / n : -std::expm1(n * std::log1p(-versine)) / n;
+}
+
+/// A great-circle arc u(s) = a cos s + t sin s, s in [0, Length].
+struct Arc
+{
+  Vec3 A;
+  Vec3 T;
+  Vec3 Normal; // A x T
+  double Length;
+
+  Arc(const Vec3& from, const Vec3& to)
+    : A(Normalized(from))
+  {
+    const Vec3 m = Cross(from, to - from); // keeps its digits for short arcs
+    const double sine = radiometry::Length(m);
+    this->Length = std::atan2(sine, Dot(from, to));
+    this->Normal = sine > 0.0 ? m / sine : Vec3{};
+    this->T = Cross(this->Normal, this->A);
+  }
+  Vec3 At(double s) const { return std::cos(s) * this->A + std::sin(s) * this->T; }
+
+  /// Appends where the arc crosses the cone of this cosine about the axis.
+  void Crossings(const Vec3& axis, double cosine, std::vector<double>& at) const
+  {
+    // cos s (A.w) + sin s (T.w) = cosine
+    const double x = Dot(this->A, axis);
+    const double y = Dot(this->T, axis);
+    const double r = std::hypot(x, y);
+    if (r <= std::fabs(cosine))
+    {
+      return;
+    }
+    const double peak = std::atan2(y, x);
+    const double spread = std::acos(std::clamp(cosine / r, -1.0, 1.0));
+    for (const double s : { peak - spread, peak + spread, peak - spread + 2.0 * Pi,
+           peak + spread - 2.0 * Pi })
+    {
+      if (s > 0.0 && s < this->Length)
+      {
+        at.push_back(s);
+      }
+    }
+  }
+};
+
+double Versine(const Vec3& unit, const Vec3& axis)
+{
+  return 0.5 * LengthSquared(unit - axis);
+}
+
+/// The azimuth swept about the axis between two directions of one great-circle arc shorter than pi.
+double AzimuthSwept(const Vec3& from, const Vec3& to, const Vec3& axis)
+{
+  const Vec3 p = Cross(axis, from);
+  const Vec3 q = Cross(axis, to);
+  return std::atan2(Dot(axis, Cross(p, q)), Dot(p, q));
+}
+
+/// Degree 7 on triangles: 12 points (Gatermann 1988), barycentric orbits of three.
+double SmallPolygon(const Vec3* polygon, std::size_t count, const Vec3& axis,
+  const AxialDistribution& distribution)
+{
+  struct Orbit
+  {
+    double A, B, C, Weight;
+  };
+  static constexpr std::array<Orbit, 4> orbits{
+    Orbit{ 0.06238226509439084, 0.06751786707392436, 0.87009986783168480, 0.05303405631487227 },
+    Orbit{ 0.05522545665692000, 0.32150249385202000, 0.62327204949106000, 0.08776281742889211 },
+    Orbit{ 0.03432430294509488, 0.66094919618679800, 0.30472650086810712, 0.05755008556995056 },
+    Orbit{ 0.51584233435359000, 0.27771616697639000, 0.20644149867002000, 0.13498637401961758 }
+  };
+  double sum = 0.0;
+  for (std::size_t k = 2; k < count; ++k)
+  {
+    const Vec3& a = polygon[0];
+    const Vec3& b = polygon[k - 1];
+    const Vec3& c = polygon[k];
+    // The mean intensity, weighted by the solid angle's density, times the exact solid angle.
+    const Vec3 n = Cross(b - a, c - a);
+    double weighted = 0.0;
+    double weights = 0.0;
+    for (const Orbit& o : orbits)
+    {
+      for (int turn = 0; turn < 3; ++turn)
+      {
+        const Vec3 p = turn == 0 ? o.A * a + o.B * b + o.C * c
+                                 : (turn == 1 ? o.B * a + o.C * b + o.A * c
+                                              : o.C * a + o.A * b + o.B * c);
+        const double l = Length(p);
+        const double density = o.Weight * -Dot(n, p) / (l * l * l);
+        weighted += density * distribution.Intensity(Dot(p, axis) / l);
+        weights += density;
+      }
+    }
+    if (weights != 0.0)
+    {
+      sum += SolidAngle(a, b, c) * (weighted / weights);
+    }
+  }
+  return sum;
+}
+
+} // namespace
+
+AxialDistribution::AxialDistribution(
+  double exponent, double cosOuter, bool smooth, double cosInner)
+  : Exponent(exponent)
+  , CosOuter(exponent > 0.0 ? std::max(cosOuter, 0.0) : cosOuter)
+  , SmoothEdge(smooth && cosInner > CosOuter)
+  , CosInnerEdge(SmoothEdge ? cosInner : CosOuter)
+{
+}
+
+double AxialDistribution::Intensity(double cosine) const
+{
+  if (cosine < this->CosOuter || (this->Exponent > 0.0 && cosine <= 0.0))
+  {
+    return 0.0;
+  }
+  double value = this->Exponent > 0.0 ? std::pow(std::min(cosine, 1.0), this->Exponent) : 1.0;
+  if (this->SmoothEdge && cosine < this->CosInnerEdge)
+  {
+    const double t = (cosine - this->CosOuter) / (this->CosInnerEdge - this->CosOuter);
+    value *= t * t;
+  }
+  return value;
+}
+
+double AxialDistribution::Cumulative(double versine) const
+{
+  const double n = this->Exponent + 1.0;
+  const double v = std::min(versine, 1.0 - this->CosOuter);
+  const double inner = 1.0 - this->CosInnerEdge;
+  if (!this->SmoothEdge || v <= inner)
+  {
+    return this->Exponent == 0.0 ? v : PowerIntegral(n, v);
+  }
+  const double c = 1.0 - v;
+  const double co = this->CosOuter;
+  const double ci = this->CosInnerEdge;
+  // int of x^e (x - co)^2 over x in [c, ci], scaled: by Gauss where the band is narrow, because
+  // the antiderivatives would cancel.
+  const auto density = [&](double x) {
+    const double t = (x - co) / (ci - co);
+    return t * t * (this->Exponent == 0.0 ? 1.0 : std::pow(std::max(x, 0.0), this->Exponent));
+  };
+  double band = 0.0;
+  if (this->Exponent == 0.0)
+  {
+    const double t = (c - co) / (ci - co);
+    band = (ci - co) * (1.0 - t * t * t) / 3.0;
+  }
+  else
+  {
+    const int panels = 1 + static_cast<int>((ci - c) * (2.0 + this->Exponent));
+    for (int k = 0; k < panels; ++k)
+    {
+      const double h = (ci - c) / panels;
+      band += Gauss(c + k * h, c + (k + 1) * h, density);
+    }
+  }
+  return (this->Exponent == 0.0 ? inner : PowerIntegral(n, inner)) + band;
+}
+
+double AxialDistribution::TotalFlux() const
+{
+  return 2.0 * Pi * this->Cumulative(2.0);
+}
+
+double AxialFlux(const Vec3* polygon, std::size_t count, const Vec3& axis,
+  const AxialDistribution& distribution)
+{
+  if (count < 3)
+  {
+    return 0.0;
+  }
+  if (distribution.Isotropic())
+  {
+    return SolidAngle(polygon, count);
+  }
+
+  // How far the polygon reaches, and whether a cone's edge may cross it.
+  const double whole = SolidAngle(polygon, count);
+  if (whole == 0.0)
+  {
+    return 0.0;
+  }
+  std::vector<Arc> arcs;
+  double size = 0.0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    arcs.emplace_back(polygon[k], polygon[(k + 1) % count]);
+    size = std::max(size, arcs.back().Length);
+  }
+  const double coneEdges[2] = { distribution.CosLimit(), distribution.CosInner() };
+  std::vector<double> cuts;
+  bool crossed = false;
+  for (const Arc& arc : arcs)
+  {
+    for (const double cosine : coneEdges)
+    {
+      cuts.clear();
+      arc.Crossings(axis, cosine, cuts);
+      crossed = crossed || !cuts.empty();
+    }
+  }
+  // A cone smaller than the polygon may lie inside it without crossing its rim.
+  const double nearest = Versine(arcs[0].A, axis);
+  const double coneAngle = std::acos(std::clamp(distribution.CosInner(), -1.0, 1.0));
+  const bool coneInside = 2.0 * std::asin(std::min(1.0, std::sqrt(0.5 * nearest))) < size &&
+    coneAngle < 2.0 * size;
+  if (!crossed && !coneInside && size * (1.0 + distribution.GetExponent()) < 0.02)
+  {
+    return SmallPolygon(polygon, count, axis, distribution);
+  }
+
+  const double outer = 1.0 - distribution.CosLimit();
+  const double beyond = distribution.Cumulative(2.0);
+  double sum = 0.0;      // int of G d psi over the parts inside the cone
+  double swept = 0.0;    // azimuth swept by the parts outside it
+  double winding = 0.0;  // azimuth swept by the whole rim
+  bool anyInside = false;
+  for (const Arc& arc : arcs)
+  {
+    if (arc.Length == 0.0)
+    {
+      continue;
+    }
+    const double lift = Dot(axis, arc.Normal);
+    winding += AzimuthSwept(arc.At(0.0), arc.At(0.5 * arc.Length), axis) +
+      AzimuthSwept(arc.At(0.5 * arc.Length), arc.At(arc.Length), axis);
+    cuts.assign(1, 0.0);
+    for (const double cosine : coneEdges)
+    {
+      arc.Crossings(axis, cosine, cuts);
+    }
+    cuts.push_back(arc.Length);
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+    {
+      const double a = cuts[k];
+      const double b = cuts[k + 1];
+      if (b <= a)
+      {
+        continue;
+      }
+      if (Versine(arc.At(0.5 * (a + b)), axis) >= outer)
+      {
+        swept += AzimuthSwept(arc.At(a), arc.At(b), axis);
+        continue;
+      }
+      anyInside = true;
+      // d psi = (axis . normal) / sin^2(phi) ds
+      const auto integrand = [&](double s) {
+        const double v = Versine(arc.At(s), axis);
+        return v > 0.0 ? distribution.Cumulative(v) / (v * (2.0 - v)) : 0.5;
+      };
+      const int panels =
+        1 + static_cast<int>(4.0 * (b - a) * (1.0 + std::sqrt(distribution.GetExponent())));
+      const double h = (b - a) / panels;
+      double part = 0.0;
+      for (int p = 0; p < panels; ++p)
+      {
+        part += Gauss(a + p * h, a + (p + 1) * h, integrand);
+      }
+      sum += lift * part;
+    }
+  }
+  // Seen from the source, the front's counter-clockwise turns against the azimuth about the axis,
+  // and with it about the opposite pole.
+  const double facing = whole > 0.0 ? 1.0 : -1.0;
+  if (!anyInside)
+  {
+    // The rim never enters the cone: all of the cone falls through the polygon, or none.
+    return winding * facing < -Pi ? facing * 2.0 * Pi * beyond : 0.0;
+  }
+  const double pole = winding * facing > Pi ? facing * 2.0 * Pi * beyond : 0.0;
+  const double flux = pole - (sum + beyond * swept);
+  return whole > 0.0 ? std::max(flux, 0.0) : std::min(flux, 0.0);
+}
+
+} // namespace radiometry

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/geometry/SolidAngle.h"
+
+namespace radiometry
+{
+
+namespace
+{
+
+/// Numerator and denominator of tan(Omega/2), the latter relative to |a||b||c|.
+struct HalfTangent
+{
+  double Triple;
+  double Sum;
+  double Scale;
+};
+
+HalfTangent MakeHalfTangent(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const double la = Length(a);
+  const double lb = Length(b);
+  const double lc = Length(c);
+  return { -Dot(a, Cross(b - a, c - a)),
+    la * lb * lc + Dot(a, b) * lc + Dot(b, c) * la + Dot(c, a) * lb, la * lb * lc };
+}
+
+/// For an origin close to the polygon compared with its size:
+///   Omega = sum over edges of [psi - asin(h sin psi / sqrt(h^2 + p^2))]
+/// with psi the azimuth about the foot of the perpendicular (height h) and p the edge line's
+/// distance from the foot: no difference of nearly equal numbers, wherever the foot lies.
+double NearSolidAngle(const Vec3* polygon, std::size_t count)
+{
+  Vec3 normal;
+  for (std::size_t k = 2; k < count; ++k)
+  {
+    normal += Cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+  }
+  normal = Normalized(normal);
+  const double height = -Dot(normal, polygon[0]);
+  if (height == 0.0)
+  {
+    return 0.0;
+  }
+  const double h = std::fabs(height);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const Vec3 a = polygon[k] + height * normal; // in the plane, from the foot
+    const Vec3 b = polygon[(k + 1) % count] + height * normal;
+    const Vec3 along = Normalized(b - a);
+    const double turn = Dot(normal, Cross(a, b));
+    const double p = std::fabs(Dot(normal, Cross(a, along)));
+    const double swept = std::atan2(turn, Dot(a, b));
+    const double hp = std::hypot(h, p);
+    const auto part = [&](const Vec3& v) {
+      // asin(h sin psi / hp), as an atan2 of h s and p sqrt(h^2 + p^2 + s^2)
+      const double s = Dot(v, along);
+      return std::atan2(h * s, p * std::hypot(hp, s));
+    };
+    sum += swept - std::copysign(part(b) - part(a), turn);
+  }
+  return std::copysign(sum, height);
+}
+
+/// Below this cosine-like number the half tangent loses digits.
+constexpr double NearLimit = 0.2;
+
+} // namespace
+
+double SolidAngle(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const Vec3 triangle[3] = { a, b, c };
+  return SolidAngle(triangle, 3);
+}
+
+double SolidAngle(const Vec3* polygon, std::size_t count)
+{
+  double sum = 0.0;
+  for (std::size_t k = 2; k < count; ++k)
+  {
+    const HalfTangent t = MakeHalfTangent(polygon[0], polygon[k - 1], polygon[k]);
+    if (t.Sum < NearLimit * t.Scale)
+    {
+      return NearSolidAngle(polygon, count);
+    }
+    sum += 2.0 * std::atan2(t.Triple, t.Sum);
+  }
+  return sum;
+}
+
+} // namespace radiometry
