@@ -2,6 +2,7 @@
 #include "radiometry/geometry/AxialFlux.h"
 
 #include "radiometry/geometry/SolidAngle.h"
+#include "radiometry/geometry/TriangleRule.h"
 
 #include <algorithm>
 #include <array>
@@ -95,47 +96,28 @@ double AzimuthSwept(const Vec3& from, const Vec3& to, const Vec3& axis)
   return std::atan2(Dot(axis, Cross(p, q)), Dot(p, q));
 }
 
-/// Degree 7 on triangles: 12 points (Gatermann 1988), barycentric orbits of three.
+/// The mean intensity by a rule of degree 7, weighted by the solid angle's density, times the exact
+/// solid angle.
 double SmallPolygon(const Vec3* polygon, std::size_t count, const Vec3& axis,
   const AxialDistribution& distribution)
 {
-  struct Orbit
-  {
-    double A, B, C, Weight;
-  };
-  static constexpr std::array<Orbit, 4> orbits{
-    Orbit{ 0.06238226509439084, 0.06751786707392436, 0.87009986783168480, 0.05303405631487227 },
-    Orbit{ 0.05522545665692000, 0.32150249385202000, 0.62327204949106000, 0.08776281742889211 },
-    Orbit{ 0.03432430294509488, 0.66094919618679800, 0.30472650086810712, 0.05755008556995056 },
-    Orbit{ 0.51584233435359000, 0.27771616697639000, 0.20644149867002000, 0.13498637401961758 }
-  };
   double sum = 0.0;
   for (std::size_t k = 2; k < count; ++k)
   {
     const Vec3& a = polygon[0];
     const Vec3& b = polygon[k - 1];
     const Vec3& c = polygon[k];
-    // The mean intensity, weighted by the solid angle's density, times the exact solid angle.
-    const Vec3 n = Cross(b - a, c - a);
     double weighted = 0.0;
     double weights = 0.0;
-    for (const Orbit& o : orbits)
+    for (const TrianglePoint& q : DegreeSevenRule)
     {
-      for (int turn = 0; turn < 3; ++turn)
-      {
-        const Vec3 p = turn == 0 ? o.A * a + o.B * b + o.C * c
-                                 : (turn == 1 ? o.B * a + o.C * b + o.A * c
-                                              : o.C * a + o.A * b + o.B * c);
-        const double l = Length(p);
-        const double density = o.Weight * -Dot(n, p) / (l * l * l);
-        weighted += density * distribution.Intensity(Dot(p, axis) / l);
-        weights += density;
-      }
+      const Vec3 p = q.A * a + q.B * b + q.C * c;
+      const double l = Length(p);
+      const double density = q.Weight / (l * l * l);
+      weighted += density * distribution.Intensity(Dot(p, axis) / l);
+      weights += density;
     }
-    if (weights != 0.0)
-    {
-      sum += SolidAngle(a, b, c) * (weighted / weights);
-    }
+    sum += SolidAngle(a, b, c) * (weighted / weights);
   }
   return sum;
 }

@@ -15,7 +15,8 @@ void ParallelFor(std::size_t n, int threads, const StageProgress& stage,
 {
   using clock = std::chrono::steady_clock;
   constexpr double roundSeconds = 0.1;
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  const int available = tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
   const double workers = arena.max_concurrency();
 
   Report(stage.Listener, stage.Begin, stage.Name);

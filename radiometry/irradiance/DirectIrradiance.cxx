@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/DirectIrradiance.h"
+
+#include "radiometry/irradiance/ShadowCutter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr double Epsilon = std::numeric_limits<double>::epsilon();
+
+/// The enabled lights of a scene, ready to be asked.
+class LightSet
+{
+public:
+  LightSet(const Scene& scene, const OcclusionScene& occluders, const DirectOptions& options)
+  {
+    const bool occlusion = options.Occlusion && !scene.Triangles.empty();
+    std::unique_ptr<MeshEdges> edges;
+    for (const Light& light : scene.Lights)
+    {
+      if (!light.Enabled || light.Type == LightType::Area || light.Type == LightType::Environment)
+      {
+        continue;
+      }
+      this->Sources.push_back(
+        std::make_unique<SourceFlux>(light, options.SpotShape, options.Attenuation));
+      if (occlusion && !edges)
+      {
+        edges = std::make_unique<MeshEdges>(scene);
+      }
+      this->Outlines.push_back(
+        occlusion ? std::make_unique<Silhouettes>(scene, *edges, light) : nullptr);
+      this->Cutters.push_back(std::make_unique<ShadowCutter>(
+        *this->Sources.back(), this->Outlines.back().get(), occluders));
+    }
+  }
+  std::size_t Size() const { return this->Sources.size(); }
+
+  std::vector<std::unique_ptr<SourceFlux>> Sources;
+  std::vector<std::unique_ptr<Silhouettes>> Outlines;
+  std::vector<std::unique_ptr<ShadowCutter>> Cutters;
+};
+
+double Magnitude(const std::vector<double>& intensity)
+{
+  return intensity.empty() ? 0.0 : *std::max_element(intensity.begin(), intensity.end());
+}
+
+/// The largest coordinate that the scene's numbers were computed with.
+double Extent(const Scene& scene)
+{
+  double extent = Length(scene.Origin);
+  for (const Vec3& p : scene.Points)
+  {
+    extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
+  }
+  return extent;
+}
+
+/// Area-weighted mean error and value, for the convergence record.
+void Record(ConvergenceRecord* record, const DirectResult& result,
+  const std::vector<double>& weights, std::int64_t rays)
+{
+  if (!record)
+  {
+    return;
+  }
+  double value = 0.0;
+  double error = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    total += weights[i];
+    for (int b = 0; b < result.Bands; ++b)
+    {
+      value += weights[i] * result.Irradiance[i * result.Bands + b];
+      error += weights[i] * result.Error[i * result.Bands + b];
+    }
+  }
+  const double mean = total > 0.0 ? error / (total * result.Bands) : 0.0;
+  record->Add("direct light", value > 0.0 ? error / value : 0.0, mean, rays);
+}
+
+} // namespace
+
+DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage,
+  ConvergenceRecord* record)
+{
+  const int bands = scene.Optics.Bands;
+  DirectResult result;
+  result.Bands = bands;
+  result.Irradiance.assign(patches.size() * bands, 0.0);
+  result.Error.assign(patches.size() * bands, 0.0);
+  const LightSet lights(scene, occluders, options);
+  if (lights.Size() == 0 || patches.empty())
+  {
+    return result;
+  }
+
+  const ConvergenceRecord clock;
+  std::vector<std::vector<Segment3>> crossings(scene.ReceiverTriangles);
+  if (options.Occlusion)
+  {
+    StageProgress part = stage;
+    part.End = stage.Begin + 0.1 * (stage.End - stage.Begin);
+    crossings = FindIntersections(scene, options.Threads, part);
+  }
+
+  std::vector<double> areas(patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i)
+  {
+    areas[i] = Area(patches[i].Corners);
+  }
+  const double extent = Extent(scene);
+  std::atomic<std::int64_t> rays{ 0 };
+  std::atomic<bool> expired{ false };
+  std::vector<std::uint8_t> open(patches.size(), 1);
+
+  const auto compute = [&](std::size_t i, int work) {
+    const Patch& patch = patches[i];
+    double* value = &result.Irradiance[i * bands];
+    double* error = &result.Error[i * bands];
+    std::fill(value, value + bands, 0.0);
+    std::fill(error, error + bands, 0.0);
+    open[i] = 0;
+    const double area = areas[i];
+    if (!(area > 0.0))
+    {
+      return;
+    }
+    const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
+    double size = std::numeric_limits<double>::infinity(); // the least height
+    for (int k = 0; k < 3; ++k)
+    {
+      size = std::min(
+        size, 2.0 * area / Length(patch.Corners[(k + 1) % 3] - patch.Corners[k]));
+    }
+    // Of the closed forms, and of coordinates of that extent on a patch of that size.
+    const double rounding = Epsilon * (16.0 + extent / size);
+
+    // Strongest light first: what it gives sets the scale of what the others may be wrong by.
+    struct Share
+    {
+      std::size_t Light;
+      double Flux;
+      double Quadrature;
+    };
+    std::vector<Share> shares;
+    for (std::size_t k = 0; k < lights.Size(); ++k)
+    {
+      double quadrature = 0.0;
+      const double flux =
+        lights.Sources[k]->OnPolygon(patch.Corners.data(), 3, normal, quadrature);
+      if (flux > 0.0)
+      {
+        shares.push_back({ k, flux, quadrature });
+      }
+    }
+    const auto strength = [&](const Share& s) {
+      return s.Flux * Magnitude(lights.Sources[s.Light]->GetLight().Intensity);
+    };
+    std::stable_sort(shares.begin(), shares.end(),
+      [&](const Share& a, const Share& b) { return strength(a) > strength(b); });
+
+    double lit = 0.0; // W, strongest band
+    for (const Share& share : shares)
+    {
+      const Light& light = lights.Sources[share.Light]->GetLight();
+      const double magnitude = Magnitude(light.Intensity);
+      if (magnitude <= 0.0)
+      {
+        continue;
+      }
+      const double basis = std::max(lit, 0.25 * share.Flux * magnitude);
+      const double allowed =
+        0.5 * std::max(options.RelativeTolerance * basis, options.AbsoluteTolerance * area) /
+        magnitude;
+      static const std::vector<Segment3> none;
+      LitFlux flux = lights.Cutters[share.Light]->Flux(patch, normal, share.Flux,
+        patch.Triangle >= 0 && static_cast<std::size_t>(patch.Triangle) < crossings.size()
+          ? crossings[patch.Triangle]
+          : none,
+        allowed, work);
+      flux.Error += share.Quadrature;
+      rays += flux.Rays;
+      lit += flux.Value * magnitude;
+      open[i] |= flux.Exact || flux.Error <= allowed ? 0 : 1;
+      for (int b = 0; b < bands; ++b)
+      {
+        const double watts = light.Intensity[b] / area;
+        value[b] += watts * flux.Value;
+        error[b] += watts * (flux.Error + rounding * flux.Value);
+      }
+    }
+  };
+
+  // Rounds of growing effort on what is not yet good enough.
+  constexpr int efforts[] = { 1, 64, 512, 4096 };
+  constexpr int rounds = static_cast<int>(std::size(efforts));
+  std::vector<std::size_t> todo(patches.size());
+  std::iota(todo.begin(), todo.end(), std::size_t{ 0 });
+  for (int round = 0; round < rounds && !todo.empty() && !expired; ++round)
+  {
+    StageProgress part = stage;
+    const double begin = round == 0 ? 0.1 : 0.5 + 0.5 * (round - 1) / (rounds - 1);
+    const double end = round == 0 ? 0.5 : 0.5 + 0.5 * round / (rounds - 1);
+    part.Begin = stage.Begin + begin * (stage.End - stage.Begin);
+    part.End = stage.Begin + end * (stage.End - stage.Begin);
+    ParallelFor(
+      todo.size(), options.Threads, part,
+      [&](std::size_t k) {
+        if (round > 0 && options.SecondsLeft > 0.0)
+        {
+          expired = expired || clock.Elapsed() > options.SecondsLeft;
+          if (expired)
+          {
+            return;
+          }
+        }
+        compute(todo[k], efforts[round]);
+      },
+      5e-6 * static_cast<double>(lights.Size()));
+    todo.erase(std::remove_if(
+                 todo.begin(), todo.end(), [&](std::size_t i) { return open[i] == 0; }),
+      todo.end());
+    Record(record, result, areas, rays);
+  }
+  result.TimedOut = expired;
+  result.Rays = rays;
+  Report(stage.Listener, stage.End, stage.Name);
+  return result;
+}
+
+DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<SurfacePoint>& points, const DirectOptions& options,
+  const StageProgress& stage, ConvergenceRecord* record)
+{
+  const int bands = scene.Optics.Bands;
+  DirectResult result;
+  result.Bands = bands;
+  result.Irradiance.assign(points.size() * bands, 0.0);
+  result.Error.assign(points.size() * bands, 0.0);
+  DirectOptions unshadowed = options;
+  unshadowed.Occlusion = false; // no outlines: a point needs one ray a light
+  const LightSet lights(scene, occluders, unshadowed);
+  if (lights.Size() == 0 || points.empty())
+  {
+    return result;
+  }
+  std::atomic<std::int64_t> rays{ 0 };
+  ParallelFor(
+    points.size(), options.Threads, stage,
+    [&](std::size_t i) {
+      const SurfacePoint& p = points[i];
+      const RayEnd from{ p.Point, p.Triangle,
+        p.Triangle < 0 && options.Occlusion && occluders.TooClose(p.Point) };
+      for (std::size_t k = 0; k < lights.Size(); ++k)
+      {
+        const Light& light = lights.Sources[k]->GetLight();
+        const double e = lights.Sources[k]->AtPoint(p.Point, p.Normal);
+        if (!(e > 0.0))
+        {
+          continue;
+        }
+        if (options.Occlusion)
+        {
+          ++rays;
+          if (lights.Cutters[k]->Hidden(from))
+          {
+            continue;
+          }
+        }
+        for (int b = 0; b < bands; ++b)
+        {
+          result.Irradiance[i * bands + b] += light.Intensity[b] * e;
+          result.Error[i * bands + b] += 16.0 * Epsilon * light.Intensity[b] * e;
+        }
+      }
+    },
+    1e-6 * static_cast<double>(lights.Size()));
+  result.Rays = rays;
+  Record(record, result, std::vector<double>(points.size(), 1.0), rays);
+  return result;
+}
+
+} // namespace radiometry

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/ShadowCutter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+namespace radiometry
+{
+namespace
+{
+
+/// More lines than this in a shaft: quarter the patch before cutting.
+constexpr std::size_t MostLines = 6;
+/// More candidates than this: quarter without listing them all.
+constexpr std::size_t MostCandidates = 256;
+
+/// Divides a convex polygon by a plane; corners within `tolerance` belong to both halves.
+void Divide(const std::vector<Vec3>& polygon, const Vec3& normal, const Vec3& through,
+  double tolerance, std::vector<Vec3>& front, std::vector<Vec3>& back)
+{
+  front.clear();
+  back.clear();
+  bool anyFront = false;
+  bool anyBack = false;
+  const std::size_t n = polygon.size();
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    const Vec3& a = polygon[k];
+    const Vec3& b = polygon[(k + 1) % n];
+    const double ha = Dot(normal, a - through);
+    const double hb = Dot(normal, b - through);
+    if (ha >= -tolerance)
+    {
+      front.push_back(a);
+    }
+    if (ha <= tolerance)
+    {
+      back.push_back(a);
+    }
+    anyFront = anyFront || ha > tolerance;
+    anyBack = anyBack || ha < -tolerance;
+    if ((ha > tolerance && hb < -tolerance) || (ha < -tolerance && hb > tolerance))
+    {
+      const Vec3 cut = a + (ha / (ha - hb)) * (b - a);
+      front.push_back(cut);
+      back.push_back(cut);
+    }
+  }
+  if (!anyFront)
+  {
+    front.clear();
+  }
+  if (!anyBack)
+  {
+    back.clear();
+  }
+}
+
+Vec3 Middle(const std::vector<Vec3>& polygon)
+{
+  // The centroid by area, so that it is well inside also when corners crowd together.
+  Vec3 sum;
+  double weights = 0.0;
+  for (std::size_t k = 2; k < polygon.size(); ++k)
+  {
+    const Triangle3 t{ polygon[0], polygon[k - 1], polygon[k] };
+    const double area = Area(t);
+    sum += area * Centroid(t);
+    weights += area;
+  }
+  return weights > 0.0 ? sum / weights : polygon[0];
+}
+
+struct Part
+{
+  Triangle3 Corners;
+  std::vector<Segment3> Lines; // empty with Overfull: not yet listed
+  bool Overfull = false;
+  double Flux = 0.0;
+
+  bool operator<(const Part& other) const { return this->Flux < other.Flux; }
+};
+
+} // namespace
+
+ShadowCutter::ShadowCutter(const SourceFlux& source, const Silhouettes* silhouettes,
+  const OcclusionScene& occluders)
+  : Source(source)
+  , Outline(silhouettes)
+  , Occluders(occluders)
+  , Close(!source.Directional() && occluders.TooClose(source.GetLight().Position))
+{
+}
+
+bool ShadowCutter::Hidden(const RayEnd& from) const
+{
+  const Light& light = this->Source.GetLight();
+  return this->Source.Directional()
+    ? this->Occluders.OccludedDirection(from, -light.Direction)
+    : this->Occluders.Occluded(from, { light.Position, -1, this->Close });
+}
+
+void ShadowCutter::Cut(const Patch& patch, const Triangle3& part,
+  const std::vector<Segment3>& lines, const Vec3& normal, LitFlux& result) const
+{
+  const Light& light = this->Source.GetLight();
+  std::vector<Polygon> pieces{ Polygon(part.begin(), part.end()) };
+  std::vector<Polygon> next;
+  Polygon front;
+  Polygon back;
+  double size = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    size = std::max(size, Length(part[(k + 1) % 3] - part[k]));
+  }
+  for (const Segment3& line : lines)
+  {
+    const Vec3 toLight = this->Source.Directional() ? light.Direction : light.Position - line.A;
+    const Vec3 n = Normalized(Cross(toLight, line.B - line.A));
+    if (n == Vec3{})
+    {
+      continue; // seen end on: its shadow is a point
+    }
+    next.clear();
+    for (const Polygon& piece : pieces)
+    {
+      Divide(piece, n, line.A, 1e-13 * size, front, back);
+      if (!front.empty())
+      {
+        next.push_back(front);
+      }
+      if (!back.empty())
+      {
+        next.push_back(back);
+      }
+    }
+    pieces.swap(next);
+  }
+  for (const Polygon& piece : pieces)
+  {
+    double quadrature = 0.0;
+    const double flux = this->Source.OnPolygon(piece.data(), piece.size(), normal, quadrature);
+    if (flux <= 0.0)
+    {
+      continue;
+    }
+    ++result.Rays;
+    if (!this->Hidden({ Middle(piece), patch.Triangle }))
+    {
+      result.Value += flux;
+      result.Error += quadrature;
+    }
+  }
+}
+
+LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccluded,
+  const std::vector<Segment3>& crossings, double allowed, int work) const
+{
+  LitFlux result;
+  if (!this->Outline)
+  {
+    result.Value = unoccluded;
+    return result;
+  }
+
+  const auto list = [&](Part& part, const Part* parent) {
+    if (parent && !parent->Overfull)
+    {
+      this->Outline->Narrow(part.Corners, parent->Lines, part.Lines);
+      return;
+    }
+    part.Overfull = !this->Outline->InShaft(part.Corners, MostCandidates, part.Lines);
+    this->Outline->Narrow(part.Corners, crossings, part.Lines);
+  };
+
+  Part whole;
+  whole.Corners = patch.Corners;
+  whole.Flux = unoccluded;
+  list(whole, nullptr);
+  if (whole.Lines.empty() && !whole.Overfull)
+  {
+    // Nothing begins or ends in the shaft: one ray tells for all of the patch.
+    result.Rays = 1;
+    result.Value = this->Hidden({ Centroid(patch.Corners), patch.Triangle }) ? 0.0 : unoccluded;
+    return result;
+  }
+
+  std::priority_queue<Part> open;
+  open.push(std::move(whole));
+  double undecided = unoccluded * unoccluded; // sum of squares of the open parts' fluxes
+  int parts = 1;
+  while (!open.empty())
+  {
+    Part part = open.top();
+    if (!part.Overfull && part.Lines.size() <= MostLines)
+    {
+      open.pop();
+      undecided -= part.Flux * part.Flux;
+      this->Cut(patch, part.Corners, part.Lines, normal, result);
+      continue;
+    }
+    // A part of unknown visibility is wrong by flux/sqrt(12) (one standard deviation).
+    const bool met = 2.0 * std::sqrt(std::max(0.0, undecided) / 12.0) <= allowed;
+    if (met || parts + 4 > work)
+    {
+      break;
+    }
+    open.pop();
+    undecided -= part.Flux * part.Flux;
+    const Triangle3& c = part.Corners;
+    const Vec3 m[3] = { 0.5 * (c[0] + c[1]), 0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0]) };
+    const std::array<Triangle3, 4> quarters{ Triangle3{ c[0], m[0], m[2] },
+      Triangle3{ m[0], c[1], m[1] }, Triangle3{ m[2], m[1], c[2] }, Triangle3{ m[0], m[1], m[2] } };
+    for (const Triangle3& q : quarters)
+    {
+      Part quarter;
+      quarter.Corners = q;
+      double quadrature = 0.0;
+      quarter.Flux = this->Source.OnPolygon(q.data(), 3, normal, quadrature);
+      if (quarter.Flux <= 0.0)
+      {
+        continue;
+      }
+      list(quarter, &part);
+      undecided += quarter.Flux * quarter.Flux;
+      open.push(std::move(quarter));
+      ++parts;
+    }
+  }
+
+  // What is left: a few well spread points of each part.
+  static constexpr double spots[4][2] = { { 1.0 / 3, 1.0 / 3 }, { 1.0 / 6, 1.0 / 6 },
+    { 2.0 / 3, 1.0 / 6 }, { 1.0 / 6, 2.0 / 3 } };
+  double variance = 0.0;
+  for (; !open.empty(); open.pop())
+  {
+    const Part& part = open.top();
+    if (!part.Overfull && part.Lines.size() <= MostLines)
+    {
+      this->Cut(patch, part.Corners, part.Lines, normal, result);
+      continue;
+    }
+    int lit = 0;
+    for (const auto& s : spots)
+    {
+      const Triangle3& c = part.Corners;
+      const Vec3 p = (1.0 - s[0] - s[1]) * c[0] + s[0] * c[1] + s[1] * c[2];
+      lit += this->Hidden({ p, patch.Triangle }) ? 0 : 1;
+    }
+    result.Rays += 4;
+    result.Value += part.Flux * (0.25 * lit);
+    // Four of a kind still leave room for what they did not meet.
+    const double share = (lit + 0.5) / 5.0;
+    variance += part.Flux * part.Flux * share * (1.0 - share) / 4.0;
+    result.Exact = false;
+  }
+  result.Error += 2.0 * std::sqrt(variance);
+  return result;
+}
+
+} // namespace radiometry

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/irradiance/Silhouettes.h"
+#include "radiometry/irradiance/SourceFlux.h"
+#include "radiometry/scene/Patch.h"
+#include "radiometry/visibility/OcclusionScene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace radiometry
+{
+
+/// Flux that reaches a patch.
+struct LitFlux
+{
+  double Value = 0.0;
+  double Error = 0.0;       // of what could not be decided, two standard deviations
+  std::int64_t Rays = 0;
+  bool Exact = true;        // nothing was left undecided
+};
+
+/// What of one light's flux reaches a patch past the occluders.
+///
+/// The patch is cut along the planes through the light and each silhouette segment in its shaft:
+/// within a piece nothing can begin or end to hide the light, so one ray decides all of it, and the
+/// flux of each piece has a closed form. Where more segments stand in the shaft than are worth
+/// cutting along, the patch is quartered first, the largest undecided part next, until the estimate
+/// of the error meets `allowed` or `work` parts have been made; what is then left is sampled.
+class ShadowCutter
+{
+public:
+  ShadowCutter(const SourceFlux& source, const Silhouettes* silhouettes,
+    const OcclusionScene& occluders);
+
+  /// `crossings` are the lines at which other triangles cut through the patch's triangle.
+  /// `allowed` and the result are in the unit of SourceFlux::OnPolygon.
+  LitFlux Flux(const Patch& patch, const Vec3& normal, double unoccluded,
+    const std::vector<Segment3>& crossings, double allowed, int work) const;
+
+  /// True when the light is hidden from a point on triangle `triangle` (-1: free).
+  bool Hidden(const RayEnd& from) const;
+
+private:
+  using Polygon = std::vector<Vec3>;
+  void Cut(const Patch& patch, const Triangle3& part, const std::vector<Segment3>& lines,
+    const Vec3& normal, LitFlux& result) const;
+
+  const SourceFlux& Source;
+  const Silhouettes* Outline; // null: nothing hides anything
+  const OcclusionScene& Occluders;
+  bool Close;
+};
+
+} // namespace radiometry

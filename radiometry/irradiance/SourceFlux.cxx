@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/SourceFlux.h"
+
+#include "radiometry/geometry/SolidAngle.h"
+#include "radiometry/geometry/TriangleRule.h"
+
+#include <cmath>
+
+namespace radiometry
+{
+namespace
+{
+
+AxialDistribution MakeDistribution(const Light& light, bool spotShape)
+{
+  return light.Type == LightType::Spot && spotShape
+    ? AxialDistribution(light.Exponent, light.CosCutoff, light.SmoothEdge, light.CosInnerCutoff)
+    : AxialDistribution(0.0, -1.0);
+}
+
+} // namespace
+
+SourceFlux::SourceFlux(const Light& light, bool spotShape, bool attenuation)
+  : Source(light)
+  , Distribution(MakeDistribution(light, spotShape))
+  , Legacy(attenuation && light.Type != LightType::Directional && !light.InverseSquare())
+{
+}
+
+bool SourceFlux::InFront(const Vec3& point, const Vec3& normal) const
+{
+  return this->Directional() ? Dot(normal, this->Source.Direction) < 0.0
+                             : Dot(normal, this->Source.Position - point) > 0.0;
+}
+
+double SourceFlux::Falloff(double r) const
+{
+  const double* k = this->Source.Attenuation;
+  return this->Legacy ? 1.0 / (k[0] + r * (k[1] + r * k[2])) : 1.0 / (r * r);
+}
+
+double SourceFlux::AtPoint(const Vec3& point, const Vec3& normal) const
+{
+  if (this->Directional())
+  {
+    return std::fmax(0.0, -Dot(normal, this->Source.Direction));
+  }
+  const Vec3 toLight = this->Source.Position - point;
+  const double r = Length(toLight);
+  if (!(r > 0.0))
+  {
+    return 0.0; // the irradiance at the light itself is not defined
+  }
+  const double cosine = Dot(normal, toLight) / r;
+  return cosine <= 0.0 ? 0.0
+                       : cosine * this->Falloff(r) *
+      this->Distribution.Intensity(-Dot(toLight, this->Source.Direction) / r);
+}
+
+double SourceFlux::OnPolygon(
+  const Vec3* polygon, std::size_t count, const Vec3& normal, double& error) const
+{
+  if (count < 3 || !this->InFront(polygon[0], normal))
+  {
+    return 0.0;
+  }
+  if (this->Directional())
+  {
+    Vec3 area2;
+    for (std::size_t k = 2; k < count; ++k)
+    {
+      area2 += Cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+    }
+    return std::fmax(0.0, -0.5 * Dot(area2, this->Source.Direction));
+  }
+
+  constexpr std::size_t most = 32;
+  Vec3 local[most];
+  const std::size_t n = count < most ? count : most;
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    local[k] = polygon[k] - this->Source.Position;
+  }
+  if (!this->Legacy)
+  {
+    return std::fmax(0.0, AxialFlux(local, n, this->Source.Direction, this->Distribution));
+  }
+  double sum = 0.0;
+  for (std::size_t k = 2; k < n; ++k)
+  {
+    const double whole = this->Weighted(local[0], local[k - 1], local[k]);
+    sum += this->Attenuated(local[0], local[k - 1], local[k], whole, 0, 1e-9, error);
+  }
+  return sum;
+}
+
+/// int I f r^2 d omega over a triangle: the exact solid angle times a weighted mean.
+double SourceFlux::Weighted(const Vec3& a, const Vec3& b, const Vec3& c) const
+{
+  const double omega = SolidAngle(a, b, c);
+  double weighted = 0.0;
+  double weights = 0.0;
+  for (const TrianglePoint& q : DegreeSevenRule)
+  {
+    const Vec3 p = q.A * a + q.B * b + q.C * c;
+    const double r = Length(p);
+    const double density = q.Weight / (r * r * r);
+    weighted += density * this->Distribution.Intensity(Dot(p, this->Source.Direction) / r) * r *
+      r * this->Falloff(r);
+    weights += density;
+  }
+  return std::fmax(0.0, omega) * (weighted / weights);
+}
+
+double SourceFlux::Attenuated(const Vec3& a, const Vec3& b, const Vec3& c, double whole, int depth,
+  double tolerance, double& error) const
+{
+  const Vec3 ab = 0.5 * (a + b);
+  const Vec3 bc = 0.5 * (b + c);
+  const Vec3 ca = 0.5 * (c + a);
+  const double parts[4] = { this->Weighted(a, ab, ca), this->Weighted(ab, b, bc),
+    this->Weighted(ca, bc, c), this->Weighted(ab, bc, ca) };
+  const double sum = parts[0] + parts[1] + parts[2] + parts[3];
+  const double difference = std::fabs(sum - whole);
+  constexpr int deepest = 7;
+  if (difference <= tolerance * sum || depth >= deepest)
+  {
+    error += difference;
+    return sum;
+  }
+  return this->Attenuated(a, ab, ca, parts[0], depth + 1, tolerance, error) +
+    this->Attenuated(ab, b, bc, parts[1], depth + 1, tolerance, error) +
+    this->Attenuated(ca, bc, c, parts[2], depth + 1, tolerance, error) +
+    this->Attenuated(ab, bc, ca, parts[3], depth + 1, tolerance, error);
+}
+
+} // namespace radiometry
