@@ -13,6 +13,8 @@ namespace
 
 /// More lines than this in a shaft: quarter the patch before cutting.
 constexpr std::size_t MostLines = 6;
+/// Error bars in standard deviations: at least 95 % of values within them, with room to spare.
+constexpr double Deviations = 2.5;
 /// More candidates than this: quarter without listing them all.
 constexpr std::size_t MostCandidates = 256;
 
@@ -202,7 +204,7 @@ LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccl
       continue;
     }
     // A part of unknown visibility is wrong by flux/sqrt(12) (one standard deviation).
-    const bool met = 2.0 * std::sqrt(std::max(0.0, undecided) / 12.0) <= allowed;
+    const bool met = Deviations * std::sqrt(std::max(0.0, undecided) / 12.0) <= allowed;
     if (met || parts + 4 > work)
     {
       break;
@@ -256,7 +258,7 @@ LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccl
     variance += part.Flux * part.Flux * share * (1.0 - share) / 4.0;
     result.Exact = false;
   }
-  result.Error += 2.0 * std::sqrt(variance);
+  result.Error += Deviations * std::sqrt(variance);
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace radiometry
 struct LitFlux
 {
   double Value = 0.0;
-  double Error = 0.0;       // of what could not be decided, two standard deviations
+  double Error = 0.0;       // of what could not be decided, and of quadrature
   std::int64_t Rays = 0;
   bool Exact = true;        // nothing was left undecided
 };
