@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The options of `python -m vtkradiometry` (and so of ./run SCENE).
+
+Imports nothing but the standard library, so that ./run --help works before anything is built.
+"""
+import argparse
+import math
+
+
+def _positive(text):
+    value = float(text)
+    if not (value > 0.0 and math.isfinite(value)):
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return value
+
+
+def _not_negative(text):
+    value = float(text)
+    if not (value >= 0.0 and math.isfinite(value)):
+        raise argparse.ArgumentTypeError(f"{text} is not a number from 0 up")
+    return value
+
+
+def _count(text):
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} is not a count")
+    return value
+
+
+def _size(text):
+    width, separator, height = text.lower().partition("x")
+    if not (separator and width.isdigit() and height.isdigit()):
+        raise argparse.ArgumentTypeError(f"{text} is not WIDTHxHEIGHT")
+    size = int(width), int(height)
+    if not all(64 <= side <= 4096 for side in size):
+        raise argparse.ArgumentTypeError(f"{text}: each side must lie between 64 and 4096")
+    return size
+
+
+def _edge(text):
+    return text if text == "auto" else _not_negative(text)
+
+
+def make_parser(program="./run"):
+    """The command line as an argparse parser."""
+    parser = argparse.ArgumentParser(
+        prog=program,
+        usage=f"{program} [SCENE] [options]",
+        description="Computes how much light falls on each part of a scene and how sure that is, "
+        "and writes the result, its picture and a report.",
+        epilog="Exit status: 0 all is well; 2 something is wrong with the input, and nothing was "
+        "written; 130 stopped by Ctrl-C, and nothing was written; 1 anything else.",
+    )
+    parser.add_argument("scene", nargs="?", metavar="SCENE",
+                        help="a .gltf or .glb file (default: the bundled gallery)")
+    parser.add_argument("--output", "-o", metavar="DIR", default="out",
+                        help="folder for the results, made if need be (default: out)")
+    parser.add_argument("--quiet", "-q", action="store_true", help="no progress on the terminal")
+    parser.add_argument("--version", action="store_true", help="print the versions and stop")
+
+    accuracy = parser.add_argument_group("how accurate, how long")
+    accuracy.add_argument("--tolerance", type=_positive, default=0.01, metavar="X",
+                          help="relative error to reach, 0.01 is one per cent (default: 0.01)")
+    accuracy.add_argument("--time-budget", type=_not_negative, default=0.0, metavar="SECONDS",
+                          help="stop each computation after this time and say how far it got "
+                          "(default: 0, no limit)")
+    accuracy.add_argument("--max-edge", type=_edge, default="auto", metavar="METRES",
+                          help="split triangles until no edge is longer; 0 keeps the mesh as it is "
+                          "(default: auto, about 6000 triangles)")
+    accuracy.add_argument("--threads", type=_count, default=0, metavar="N",
+                          help="processor threads (default: 0, all)")
+
+    physics = parser.add_argument_group("what is computed")
+    physics.add_argument("--radiosity", action=argparse.BooleanOptionalAction, default=True,
+                         help="light reflected between surfaces too, not only light that comes "
+                         "straight from the lamps")
+    physics.add_argument("--method", default="auto",
+                         choices=["auto", "dense", "hierarchical", "montecarlo"],
+                         help="how interreflection is solved (default: auto)")
+    physics.add_argument("--two-sided", action=argparse.BooleanOptionalAction, default=None,
+                         help="whether surfaces receive and reflect light on their backs "
+                         "(default: as the scene's materials say)")
+    physics.add_argument("--samples", choices=["cells", "points"], default="cells",
+                         help="one value for each cell (its average) or each point")
+    physics.add_argument("--light-units", metavar="UNITS", default="auto",
+                         help="what the light intensities in the file are: auto, photometric "
+                         "(cd and lx, as glTF says), radiometric (W/sr and W/m2)")
+    physics.add_argument("--emissive-units", metavar="UNITS", default="auto",
+                         help="what emissive colours in the file are: auto, photometric (cd/m2), "
+                         "radiometric (W/(m2 sr)), blender (what Blender's exporter leaves)")
+
+    picture = parser.add_argument_group("pictures")
+    picture.add_argument("--size", type=_size, default=(1280, 720), metavar="WxH",
+                         help="pixels of the pictures (default: 1280x720)")
+    picture.add_argument("--exposure", type=float, default=None, metavar="STOPS",
+                         help="scale the picture by 2 to this power (default: from the scene's "
+                         "brightness)")
+    picture.add_argument("--display", metavar="NAME", default=None,
+                         help="OpenColorIO display, for example sRGB or P3-D65")
+    picture.add_argument("--view", metavar="NAME", default=None,
+                         help="OpenColorIO view of that display, for example plain or ACES")
+    picture.add_argument("--quantity", choices=["auto", "irradiance", "illuminance"],
+                         default="auto", help="what falsecolor.png shows: irradiance in W/m2 or "
+                         "illuminance in lx (default: auto, illuminance for a coloured scene)")
+    picture.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), default=None,
+                         help="ends of the false-colour legend (default: from the values)")
+    picture.add_argument("--scale", choices=["auto", "linear", "log"], default="auto",
+                         help="false-colour scale (default: auto, log when values span a lot)")
+    return parser
+
+
+if __name__ == "__main__":
+    make_parser().print_help()
