@@ -84,12 +84,19 @@ def make_parser(program="./run"):
                          "(default: as the scene's materials say)")
     physics.add_argument("--samples", choices=["cells", "points"], default="cells",
                          help="one value for each cell (its average) or each point")
-    physics.add_argument("--light-units", metavar="UNITS", default="auto",
-                         help="what the light intensities in the file are: auto, photometric "
-                         "(cd and lx, as glTF says), radiometric (W/sr and W/m2)")
-    physics.add_argument("--emissive-units", metavar="UNITS", default="auto",
-                         help="what emissive colours in the file are: auto, photometric (cd/m2), "
-                         "radiometric (W/(m2 sr)), blender (what Blender's exporter leaves)")
+    physics.add_argument("--light-units", choices=["auto", "photometric", "radiometric"],
+                         default="auto",
+                         help="what the light intensities in the file are: photometric (cd and lx, "
+                         "as glTF says) or radiometric (W/sr and W/m2) (default: auto, photometric)")
+    physics.add_argument("--emissive-units", choices=["auto", "luminance", "radiance", "exitance"],
+                         default="auto",
+                         help="what the emissive colours in the file are: luminance (cd/m2, as "
+                         "glTF says), radiance (W/(m2 sr), what Blender leaves) or exitance (W/m2) "
+                         "(default: auto, radiance if Blender wrote the file, else luminance)")
+    physics.add_argument("--specular-as-diffuse", action=argparse.BooleanOptionalAction,
+                         default=True,
+                         help="count what glossy materials reflect as diffuse: right energy, no "
+                         "highlights (default: yes)")
 
     picture = parser.add_argument_group("pictures")
     picture.add_argument("--size", type=_size, default=(1280, 720), metavar="WxH",

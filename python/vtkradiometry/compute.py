@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the simulating filters with progress, and keeps their three outputs."""
+import time
+
+from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+from .faults import InputFault, Listener
+from .plots import rows_of
+
+METHODS = {"auto": 0, "dense": 1, "hierarchical": 2, "montecarlo": 3}
+SAMPLES = {"cells": 0, "points": 1}
+
+
+class Result:
+    """What a simulating filter gave: surface, plan and convergence, and the time it took."""
+
+    def __init__(self, name, surface, plan, convergence, seconds, warnings):
+        self.name = name
+        self.surface = surface
+        self.plan = plan
+        self.convergence = convergence
+        self.seconds = seconds
+        self.warnings = warnings
+
+    def plan_rows(self):
+        """The effect plan as a list of dictionaries."""
+        names, rows = rows_of(self.plan)
+        return [dict(zip(names, row)) for row in rows]
+
+    def convergence_rows(self):
+        """The convergence record as a list of dictionaries."""
+        names, rows = rows_of(self.convergence)
+        return [dict(zip(names, row)) for row in rows]
+
+    def facts(self):
+        """The surface's field data (units, version, options ...) as a dictionary."""
+        return field_facts(self.surface)
+
+
+def field_facts(data):
+    """Field data arrays of up to 16 values as plain Python values."""
+    facts = {}
+    field = data.GetFieldData()
+    for index in range(field.GetNumberOfArrays()):
+        array = field.GetAbstractArray(index)
+        if array is None or not 0 < array.GetNumberOfValues() <= 16:
+            continue
+        if isinstance(array, vtkStringArray):
+            values = [array.GetValue(k) for k in range(array.GetNumberOfValues())]
+        elif hasattr(array, "GetDataType"):
+            values = vtk_to_numpy(array).reshape(-1).tolist()
+        else:
+            continue
+        facts[array.GetName()] = values[0] if len(values) == 1 else values
+    return facts
+
+
+def _set(algorithm, name, value):
+    """Sets a property that this class has; others are for other classes."""
+    method = getattr(algorithm, "Set" + name, None)
+    if method is not None:
+        method(value)
+
+
+def configure(algorithm, options):
+    """Hands the command line's options to a simulating filter."""
+    _set(algorithm, "RelativeTolerance", options.tolerance)
+    _set(algorithm, "TimeBudget", options.time_budget)
+    _set(algorithm, "NumberOfThreads", options.threads)
+    _set(algorithm, "SampleLocation", SAMPLES[options.samples])
+    _set(algorithm, "Method", METHODS[options.method])
+    if options.two_sided is not None:
+        _set(algorithm, "TwoSided", bool(options.two_sided))
+
+
+def run(algorithm, name, surface, lights, options, progress):
+    """Runs `algorithm` on the surface and returns its Result.
+
+    Raises InputFault with the filter's own words if it refuses its input, and Stopped when the
+    user stopped it.
+    """
+    algorithm.SetInputDataObject(0, surface)
+    if lights is not None and lights.GetNumberOfPoints() > 0:
+        algorithm.AddInputDataObject(1, lights)
+    configure(algorithm, options)
+    with Listener() as listener:
+        listener.observe(algorithm)
+        listener.observe(algorithm.GetExecutive())
+        with progress.stage(name), progress.filter(algorithm):
+            begin = time.monotonic()
+            algorithm.Update()
+            seconds = time.monotonic() - begin
+        listener.check(name.lower())
+        warnings = list(dict.fromkeys(listener.warnings))
+    output = vtkPolyData()
+    output.ShallowCopy(algorithm.GetOutputDataObject(0))
+    if output.GetNumberOfCells() != surface.GetNumberOfCells():
+        raise InputFault(f"{name.lower()}: no result, and the filter does not say why")
+    plan, convergence = vtkTable(), vtkTable()
+    plan.ShallowCopy(algorithm.GetOutputDataObject(1))
+    convergence.ShallowCopy(algorithm.GetOutputDataObject(2))
+    return Result(name, output, plan, convergence, seconds, warnings)

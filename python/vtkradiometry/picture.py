@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scene-linear picture (scene.exr) and what the display transform makes of it (scene.png)."""
+import math
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer, vtkRenderWindow
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the renderer)
+
+from .vtkRadiometryRendering import (
+    vtkLinearFloatPass,
+    vtkOpenColorIOImageFilter,
+    vtkPhongGouraudMapper,
+)
+from . import mesh
+
+OVERSAMPLING = 2  # in each direction; averaged in scene-linear light
+LUMINANCE = np.array([0.2126390, 0.7151687, 0.0721923])  # Y of linear Rec.709
+
+
+def as_rgb(values):
+    """Values with 1 or 3 bands as RGB; any other number of bands becomes the grey of its mean."""
+    values = np.asarray(values, dtype=np.float64)
+    if values.shape[1] == 3:
+        return values
+    return np.repeat(values.mean(axis=1, keepdims=True), 3, axis=1)
+
+
+class Drawing:
+    """One surface drawn again and again with other arrays, into a float frame buffer."""
+
+    def __init__(self, surface, camera, culling):
+        self.camera = camera
+        self.mapper = vtkPhongGouraudMapper()
+        self.mapper.SetInputDataObject(surface)
+        self.mapper.SetFieldModeToOn()
+        self.mapper.ScalarVisibilityOff()
+        actor = vtkActor()
+        actor.SetMapper(self.mapper)
+        actor.GetProperty().SetBackfaceCulling(culling)
+        self.renderer = vtkRenderer()
+        self.renderer.SetBackground(0.0, 0.0, 0.0)
+        self.renderer.AddActor(actor)
+        self.target = vtkLinearFloatPass()
+        self.renderer.SetPass(self.target)
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(0)
+        self.window.AddRenderer(self.renderer)
+
+    def draw(self, name, association, width, height):
+        """The array `name` as (height, width, 4) floats, row 0 at the bottom."""
+        self.mapper.SetFieldArrayName(name)
+        self.mapper.SetFieldAssociation(association)
+        self.window.SetSize(width, height)
+        self.camera.apply(self.renderer, width / height)
+        self.window.Render()
+        return self.read(width, height)
+
+    def read(self, width, height):
+        """The float frame buffer as an array."""
+        image = vtkImageData()
+        self.target.GetLinearImage(image)
+        values = vtk_to_numpy(image.GetPointData().GetScalars())
+        return values.reshape(height, width, -1).astype(np.float32)
+
+    def close(self):
+        """Frees the graphics memory."""
+        self.window.Finalize()
+
+
+class Picture:
+    """The linear picture and, for each pixel, the cell seen at its centre (-1: none)."""
+
+    def __init__(self, rgb, cells, depth, normal):
+        self.rgb, self.cells, self.depth, self.normal = rgb, cells, depth, normal
+
+    def of_cells(self, values):
+        """Values per cell (T, n) as (height, width, n); 0 where nothing is seen."""
+        values = np.asarray(values, dtype=np.float32).reshape(-1, np.shape(values)[-1])
+        image = values[np.maximum(self.cells, 0)]
+        image[self.cells < 0] = 0.0
+        return image
+
+
+def render(smooth, radiance, camera, size, culling):
+    """Draws the radiance (per cell) smoothly, and finds the cell, depth and normal of each pixel."""
+    width, height = size
+    surface = smooth.polydata(
+        {"Radiance": smooth.to_points(as_rgb(radiance)).astype(np.float32)},
+        {"CellNumber": np.arange(1, len(smooth.corner) + 1, dtype=np.float32)})
+    drawing = Drawing(surface, camera, culling)
+    try:
+        fine = drawing.draw("Radiance", 0, width * OVERSAMPLING, height * OVERSAMPLING)
+        rgb = fine[:, :, :3].reshape(height, OVERSAMPLING, width, OVERSAMPLING, 3).mean(axis=(1, 3))
+        number = drawing.draw("CellNumber", 1, width, height)[:, :, 0]
+    finally:
+        drawing.close()
+    cells = np.rint(number).astype(np.int64) - 1
+    depth, normal = _geometry(smooth, cells, camera)
+    return Picture(rgb, cells, depth, normal)
+
+
+def _geometry(smooth, cells, camera):
+    """Depth along the view axis (infinite where nothing is seen) and the smooth normal."""
+    height, width = cells.shape
+    origin, direction = camera.rays(width, height)
+    seen = cells >= 0
+    depth = np.full(cells.shape, np.inf)
+    normal = np.zeros(cells.shape + (3,))
+    chosen = cells[seen]
+    corner = smooth.xyz[smooth.corner[chosen]]
+    o, d = origin[seen], direction[seen]
+    edge1, edge2 = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    p = np.cross(d, edge2)
+    determinant = np.einsum("ij,ij->i", edge1, p)
+    determinant[determinant == 0.0] = np.finfo(float).tiny
+    s = o - corner[:, 0]
+    u = np.einsum("ij,ij->i", s, p) / determinant
+    q = np.cross(s, edge1)
+    v = np.einsum("ij,ij->i", d, q) / determinant
+    depth[seen] = np.einsum("ij,ij->i", edge2, q) / determinant
+    # A pixel's centre may fall a rounding error outside the triangle that was drawn there.
+    weight = np.clip(np.stack([1.0 - u - v, u, v], axis=1), 0.0, 1.0)
+    smooth_normal = np.einsum("ij,ijk->ik", weight, smooth.normal[smooth.corner[chosen]])
+    length = np.linalg.norm(smooth_normal, axis=1, keepdims=True)
+    smooth_normal /= np.maximum(length, np.finfo(float).tiny)
+    away = np.einsum("ij,ij->i", smooth_normal, d) > 0.0
+    geometric = np.cross(edge1, edge2)
+    back = np.einsum("ij,ij->i", geometric, d) > 0.0
+    smooth_normal[back & away] *= -1.0  # the back of a two-sided surface
+    normal[seen] = smooth_normal
+    return depth, normal
+
+
+def automatic_exposure(rgb, seen):
+    """The exposure, in stops, that brings the picture's typical brightness to middle grey and keeps
+    all but the brightest 2 % of it below white."""
+    luminance = (rgb @ LUMINANCE)[seen]
+    luminance = luminance[luminance > 0.0]
+    if not len(luminance):
+        return 0.0
+    typical = math.exp(float(np.mean(np.log(luminance))))
+    bright = float(np.quantile(luminance, 0.98))
+    return math.log2(min(0.25 / typical, 1.0 / bright) if bright > 0.0 else 0.25 / typical)
+
+
+def to_image(values):
+    """(height, width, n) floats as vtkImageData."""
+    height, width = values.shape[:2]
+    image = vtkImageData()
+    image.SetDimensions(width, height, 1)
+    array = numpy_to_vtk(np.ascontiguousarray(values.reshape(height * width, -1)), deep=True)
+    image.GetPointData().SetScalars(array)
+    return image
+
+
+def write_png(path, rgb, exposure, display, view):
+    """The picture through OpenColorIO's display transform; returns what was used."""
+    transform = vtkOpenColorIOImageFilter()
+    transform.SetInputData(to_image(rgb.astype(np.float32)))
+    transform.SetExposure(exposure)
+    if display:
+        transform.SetDisplay(display)
+    if view:
+        transform.SetView(view)
+    transform.Update()
+    shown = vtk_to_numpy(transform.GetOutput().GetPointData().GetScalars())
+    if shown.dtype != np.uint8:
+        shown = (np.clip(shown, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+    writer = vtkPNGWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(to_image(shown.reshape(rgb.shape[0], rgb.shape[1], -1)[:, :, :3]))
+    writer.Write()
+    return {"display": transform.GetDisplay(), "view": transform.GetView()}
