@@ -17,6 +17,7 @@ vtk_module_scan(
 vtk_module_build(
   MODULES ${provided}
   PACKAGE vtkRadiometry
+  INSTALL_EXPORT vtkRadiometry
   INSTALL_HEADERS ON
   HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/vtkRadiometry"
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/vtkRadiometry")
