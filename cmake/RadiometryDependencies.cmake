@@ -4,6 +4,7 @@ find_package(TBB CONFIG REQUIRED)          # TBB::tbb
 find_package(Eigen3 CONFIG REQUIRED)       # Eigen3::Eigen
 find_package(OpenEXR CONFIG REQUIRED)      # OpenEXR::OpenEXR
 find_package(nlohmann_json CONFIG REQUIRED)
+find_package(TinyGLTF CONFIG REQUIRED)    # TinyGLTF::TinyGLTF (Debian: libtinygltf-dev)
 
 # Debian's OpenColorIOConfig.cmake names targets that it does not ship (2.1.2): use pkg-config.
 find_package(PkgConfig REQUIRED)
