@@ -18,8 +18,8 @@ namespace
 {
 
 const std::set<std::string> supportedExtensions{ "KHR_lights_punctual",
-  "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization",
-  "KHR_node_visibility", "KHR_texture_transform" };
+  "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
+  "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform" };
 
 std::string FirstLine(const std::string& text)
 {

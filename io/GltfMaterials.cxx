@@ -75,22 +75,64 @@ std::array<double, 3> TextureFactor(const GltfDocument& file, int texture,
   return rgb;
 }
 
-void MapReflectance(const tinygltf::Material& m, const std::array<double, 3>& base, double metal,
-  double roughness, bool specularAsDiffuse, GltfMaterial& out)
+/// Reflectance of the dielectric part at normal incidence: KHR_materials_ior and
+/// KHR_materials_specular change the 0.04 of an index of refraction of 1.5.
+std::array<double, 3> DielectricF0(
+  const GltfDocument& file, std::size_t index, const std::string& at)
+{
+  std::array<double, 3> f0{ dielectricF0, dielectricF0, dielectricF0 };
+  const auto number = [&](const nlohmann::json& value, const std::string& name, double low,
+                        double high, long long i) {
+    if (!value.is_number())
+    {
+      throw InputError(at + name, i, value.dump(), "a number");
+    }
+    return InRange(value.get<double>(), low, high, at + name, i);
+  };
+  const auto& ior = file.Extension("materials", index, "KHR_materials_ior");
+  if (ior.is_object() && ior.contains("ior"))
+  {
+    const double n = number(ior["ior"], ".ior", 0.0, 1e301, -1);
+    const double r = n == 0.0 ? 1.0 : (n - 1.0) / (n + 1.0); // 0 stands for infinite
+    f0.fill(n == 0.0 || n >= 1.0 ? r * r : number(ior["ior"], ".ior", 1.0, 1e301, -1));
+  }
+  const auto& specular = file.Extension("materials", index, "KHR_materials_specular");
+  if (specular.is_object())
+  {
+    const double factor = specular.contains("specularFactor")
+      ? number(specular["specularFactor"], ".specularFactor", 0.0, 1.0, -1)
+      : 1.0;
+    const auto color = specular.find("specularColorFactor");
+    if (color != specular.end() && (!color->is_array() || color->size() != 3))
+    {
+      throw InputError(at + ".specularColorFactor", -1, color->dump(), "an array of 3 numbers");
+    }
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+      const double tint = color == specular.end()
+        ? 1.0
+        : number((*color)[b], ".specularColorFactor", 0.0, 1e301, static_cast<long long>(b));
+      f0[b] = std::min(1.0, f0[b] * tint) * factor;
+    }
+  }
+  return f0;
+}
+
+void MapReflectance(const std::array<double, 3>& base, const std::array<double, 3>& f0,
+  double metal, double roughness, bool specularAsDiffuse, GltfMaterial& out)
 {
   const double alpha = std::max(roughness * roughness, leastAlpha);
   const double exponent = 2.0 / (alpha * alpha) - 2.0;
   const bool fold = specularAsDiffuse || exponent < broadestLobe;
   for (int b = 0; b < 3; ++b)
   {
-    const double diffuse = (1.0 - metal) * (1.0 - dielectricF0) * base[b];
-    const double specular = (1.0 - metal) * dielectricF0 + metal * base[b];
-    // (1 - m)(0.96 base + 0.04) + m base may exceed 1 by rounding only.
+    const double diffuse = (1.0 - metal) * (1.0 - f0[b]) * base[b];
+    const double specular = (1.0 - metal) * f0[b] + metal * base[b];
+    // The sum may exceed 1 by rounding only.
     out.Diffuse[b] = fold ? std::min(1.0, diffuse + specular) : diffuse;
     out.Specular[b] = fold ? 0.0 : std::min(specular, 1.0 - diffuse);
   }
   out.Shininess = exponent;
-  out.TwoSided = m.doubleSided;
 }
 
 GltfMaterial ReadMaterial(const GltfDocument& file, const tinygltf::Material& m, std::size_t index,
@@ -114,7 +156,9 @@ GltfMaterial ReadMaterial(const GltfDocument& file, const tinygltf::Material& m,
   {
     base[b] *= InRange(pbr.baseColorFactor[b], 0, 1, at + ".baseColorFactor", b);
   }
-  MapReflectance(m, base, metal, roughness, options.SpecularAsDiffuse, out);
+  MapReflectance(
+    base, DielectricF0(file, index, at), metal, roughness, options.SpecularAsDiffuse, out);
+  out.TwoSided = m.doubleSided;
 
   double strength = 1.0;
   const auto& extension = file.Extension("materials", index, "KHR_materials_emissive_strength");
@@ -170,16 +214,18 @@ void ReadGltfMaterials(const GltfDocument& file, const GltfOptions& options, Glt
   }
   GltfMaterial standard;
   standard.Name = "(default)";
-  MapReflectance({}, { 1.0, 1.0, 1.0 }, 1.0, 1.0, options.SpecularAsDiffuse, standard);
+  MapReflectance({ 1.0, 1.0, 1.0 }, {}, 1.0, 1.0, options.SpecularAsDiffuse, standard);
   scene.Materials.push_back(standard);
 
   Assume(scene,
     options.SpecularAsDiffuse
-      ? "Materials: diffuse reflectance 0.96 (1 - metallic) base colour, plus the whole specular "
-        "reflectance 0.04 (1 - metallic) + metallic base colour."
-      : "Materials: diffuse reflectance 0.96 (1 - metallic) base colour; specular 0.04 (1 - "
+      ? "Materials: diffuse reflectance (1 - F0) (1 - metallic) base colour, plus the whole specular "
+        "reflectance F0 (1 - metallic) + metallic base colour; F0 = 0.04 unless the file says "
+        "otherwise."
+      : "Materials: diffuse reflectance (1 - F0) (1 - metallic) base colour; specular F0 (1 - "
         "metallic) + metallic base colour in a Phong lobe of exponent 2/roughness^4 - 2, which "
-        "counts as diffuse where the exponent is below 2.");
+        "counts as diffuse where the exponent is below 2; F0 = 0.04 unless the file says "
+        "otherwise.");
   if (emits)
   {
     const char* how = unitsOfFile == EmissiveUnits::Luminance

@@ -200,7 +200,8 @@ void PlaceLight(const GltfDocument& file, const PlacedNode& node,
 void NoteWhatIsIgnored(const GltfDocument& file, GltfScene& scene)
 {
   static const std::set<std::string> used{ "KHR_lights_punctual",
-    "KHR_materials_emissive_strength", "KHR_mesh_quantization", "KHR_node_visibility" };
+    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
+    "KHR_mesh_quantization", "KHR_node_visibility" };
   for (const std::string& name : file.Model().extensionsUsed)
   {
     if (used.count(name) == 0)

@@ -85,10 +85,12 @@ struct GltfScene
 
 /// Reads a .gltf or .glb file (glTF 2.0) through tinygltf.
 ///   Reads   the default scene: triangle meshes, materials, KHR_lights_punctual,
-///           KHR_materials_emissive_strength, KHR_mesh_quantization, KHR_node_visibility, cameras
-///   Model   material: diffuse = (1 - m)(1 - 0.04) base; specular = 0.04 (1 - m) + m base, so that
-///           diffuse + specular <= 1; Phong exponent 2/a^2 - 2 with a = roughness^2. A lobe of
-///           exponent below 2 counts as diffuse
+///           KHR_materials_emissive_strength, KHR_materials_ior, KHR_materials_specular,
+///           KHR_mesh_quantization, KHR_node_visibility, cameras
+///   Model   material: diffuse = (1 - m)(1 - F0) base; specular = (1 - m) F0 + m base, so that
+///           diffuse + specular <= 1; F0 = 0.04, or by KHR_materials_ior and KHR_materials_specular;
+///           Phong exponent 2/a^2 - 2 with a = roughness^2. A lobe of exponent below 2 counts as
+///           diffuse
 ///   Cost    O(size of the file)
 ///   Source  Khronos glTF 2.0 specification, appendix B (metallic-roughness, F0 = 0.04);
 ///           Walter et al. 2007 (a^2 = 2/(n + 2) between Phong and Beckmann lobes)

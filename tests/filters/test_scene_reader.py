@@ -251,6 +251,16 @@ def test_materials():
                                   roughnessFactor=0.5)), SpecularAsDiffuse=True)
     close(cell(folded, "DiffuseReflectance")[0],
           0.75 * 0.96 * np.array([0.8, 0.5, 0.2]) + 0.03 + 0.25 * np.array([0.8, 0.5, 0.2]))
+    # Extensions that change the 4 % of a dielectric: no gloss, another index, a tint.
+    for extension, f0 in (({"KHR_materials_specular": {"specularFactor": 0}}, [0, 0, 0]),
+                          ({"KHR_materials_ior": {"ior": 2}}, [1 / 9] * 3),
+                          ({"KHR_materials_specular": {"specularColorFactor": [2, 1, 30],
+                                                       "specularFactor": 0.5}}, [0.04, 0.02, 0.5])):
+        f0 = np.array(f0)
+        fields = material(baseColorFactor=[0.8, 0.5, 0.2, 1], metallicFactor=0, roughnessFactor=0.5)
+        glossy = read(square({**fields, "extensions": extension}))
+        close(cell(glossy, "DiffuseReflectance")[0], (1 - f0) * np.array([0.8, 0.5, 0.2]))
+        close(cell(glossy, "SpecularReflectance")[0], f0, absolute=1e-16)
     # Never more than all of the light, whatever the material.
     for metal in (0, 0.3, 1):
         for rough in (0, 0.5, 1):

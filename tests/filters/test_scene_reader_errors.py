@@ -168,6 +168,9 @@ def test_materials():
         "KHR_materials_emissive_strength": {"emissiveStrength": -4}}), ".emissiveStrength", "-4")
     refused(with_material(extensions={
         "KHR_materials_emissive_strength": {"emissiveStrength": "bright"}}), ".emissiveStrength")
+    refused(with_material(extensions={"KHR_materials_ior": {"ior": 0.5}}), ".ior", "0.5")
+    refused(with_material(extensions={"KHR_materials_specular": {"specularFactor": 2}}),
+            ".specularFactor", "2")
 
 
 def test_extensions():
