@@ -15,8 +15,9 @@ from .vtkRadiometryRendering import (
     vtkPhongGouraudMapper,
 )
 from . import mesh
+from .faults import Listener
 
-OVERSAMPLING = 2  # in each direction; averaged in scene-linear light
+SAMPLES = 3  # of a pixel in each direction; averaged in scene-linear light
 LUMINANCE = np.array([0.2126390, 0.7151687, 0.0721923])  # Y of linear Rec.709
 
 
@@ -50,8 +51,9 @@ class Drawing:
         self.window.SetMultiSamples(0)
         self.window.AddRenderer(self.renderer)
 
-    def draw(self, name, association, width, height):
+    def draw(self, name, association, width, height, samples):
         """The array `name` as (height, width, 4) floats, row 0 at the bottom."""
+        self.target.SetSamples(samples)
         self.mapper.SetFieldArrayName(name)
         self.mapper.SetFieldAssociation(association)
         self.window.SetSize(width, height)
@@ -61,8 +63,9 @@ class Drawing:
 
     def read(self, width, height):
         """The float frame buffer as an array."""
-        image = vtkImageData()
-        self.target.GetLinearImage(image)
+        image = self.target.GetColor()
+        if image is None:
+            raise OSError("the graphics driver offers no float frame buffer")
         values = vtk_to_numpy(image.GetPointData().GetScalars())
         return values.reshape(height, width, -1).astype(np.float32)
 
@@ -93,9 +96,8 @@ def render(smooth, radiance, camera, size, culling):
         {"CellNumber": np.arange(1, len(smooth.corner) + 1, dtype=np.float32)})
     drawing = Drawing(surface, camera, culling)
     try:
-        fine = drawing.draw("Radiance", 0, width * OVERSAMPLING, height * OVERSAMPLING)
-        rgb = fine[:, :, :3].reshape(height, OVERSAMPLING, width, OVERSAMPLING, 3).mean(axis=(1, 3))
-        number = drawing.draw("CellNumber", 1, width, height)[:, :, 0]
+        rgb = drawing.draw("Radiance", 0, width, height, SAMPLES)[:, :, :3]
+        number = drawing.draw("CellNumber", 1, width, height, 1)[:, :, 0]
     finally:
         drawing.close()
     cells = np.rint(number).astype(np.int64) - 1
@@ -166,12 +168,14 @@ def write_png(path, rgb, exposure, display, view):
         transform.SetDisplay(display)
     if view:
         transform.SetView(view)
-    transform.Update()
+    transform.SetOutputScalarTypeToUnsignedChar()
+    with Listener() as listener:
+        listener.observe(transform)
+        transform.Update()
+        listener.check("display transform")
     shown = vtk_to_numpy(transform.GetOutput().GetPointData().GetScalars())
-    if shown.dtype != np.uint8:
-        shown = (np.clip(shown, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
     writer = vtkPNGWriter()
     writer.SetFileName(path)
     writer.SetInputData(to_image(shown.reshape(rgb.shape[0], rgb.shape[1], -1)[:, :, :3]))
     writer.Write()
-    return {"display": transform.GetDisplay(), "view": transform.GetView()}
+    return {"display": display or "default", "view": view or "default"}
