@@ -14,6 +14,9 @@ namespace radiometry
 namespace
 {
 
+/// How far inside its triangles a vertex asks for the light, as a share of the way to the centroid.
+constexpr double NudgeShare = 1.0 / 64.0;
+
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 
 /// The enabled lights of a scene, ready to be asked.
@@ -271,18 +274,36 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
         {
           continue;
         }
-        if (options.Occlusion)
+        double visible = 1.0;
+        double doubt = 0.0;
+        if (options.Occlusion && p.Around.empty())
         {
           ++rays;
-          if (lights.Cutters[k]->Hidden(from))
+          visible = lights.Cutters[k]->Hidden(from) ? 0.0 : 1.0;
+        }
+        else if (options.Occlusion)
+        {
+          int asked = 0;
+          int lit = 0;
+          for (const std::int32_t t : p.Around)
           {
-            continue;
+            const Triangle3 around = scene.TriangleAt(t);
+            const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
+            const Vec3 n = AreaNormal2(around);
+            if (lights.Sources[k]->InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
+            {
+              ++asked;
+              lit += lights.Cutters[k]->Hidden({ start, t }) ? 0 : 1;
+            }
           }
+          rays += asked;
+          visible = asked > 0 ? static_cast<double>(lit) / asked : 0.0;
+          doubt = lit > 0 && lit < asked ? 0.5 : 0.0; // a shadow's edge runs through the vertex
         }
         for (int b = 0; b < bands; ++b)
         {
-          result.Irradiance[i * bands + b] += light.Intensity[b] * e;
-          result.Error[i * bands + b] += 16.0 * Epsilon * light.Intensity[b] * e;
+          result.Irradiance[i * bands + b] += light.Intensity[b] * e * visible;
+          result.Error[i * bands + b] += light.Intensity[b] * e * (doubt + 16.0 * Epsilon * visible);
         }
       }
     },

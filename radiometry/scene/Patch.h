@@ -4,6 +4,7 @@
 #include "radiometry/scene/Vec3.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace radiometry
 {
@@ -23,6 +24,11 @@ struct SurfacePoint
   Vec3 Point;
   Vec3 Normal;                // unit
   std::int32_t Triangle = -1; // the scene's triangle on whose plane it lies; -1: a free sensor
+  /// A vertex of the surface: the scene's triangles that meet there in one smooth sheet. What hides
+  /// the light is then asked just inside each of them that faces it (a vertex itself lies on every
+  /// neighbour at once, walls of a corner included), and the answers are averaged. Empty: ask at
+  /// the point itself.
+  std::vector<std::int32_t> Around;
 };
 
 } // namespace radiometry

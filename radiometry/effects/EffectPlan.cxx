@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/effects/EffectPlan.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr std::size_t MostExamined = 4096;
+
+double Greatest(const std::vector<double>& values)
+{
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+double Greatest(const std::array<std::vector<double>, 2>& sides)
+{
+  return std::max(Greatest(sides[0]), Greatest(sides[1]));
+}
+bool AnyOn(const std::vector<std::uint8_t>& flags)
+{
+  return std::any_of(flags.begin(), flags.end(), [](std::uint8_t f) { return f != 0; });
+}
+
+/// True when every finite light lies before the plane of every triangle.
+bool LightsInside(const Scene& scene)
+{
+  for (const Light& light : scene.Lights)
+  {
+    if (!light.Enabled)
+    {
+      continue;
+    }
+    if (light.Type == LightType::Directional)
+    {
+      return false;
+    }
+    for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
+    {
+      const Triangle3 v = scene.TriangleAt(t);
+      if (Dot(AreaNormal2(v), light.Position - v[0]) <= 0.0)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+const char* EffectName(Effect effect)
+{
+  static const char* const names[EffectCount] = { "Occlusion", "Interreflection",
+    "SpecularTransport", "Transmission", "BackFaces", "Emission", "Environment", "SpotShape",
+    "Attenuation" };
+  return names[static_cast<int>(effect)];
+}
+
+Convexity FindConvexity(const Scene& scene)
+{
+  if (scene.Triangles.size() > MostExamined || scene.Triangles.empty())
+  {
+    return Convexity::General;
+  }
+  double extent = 0.0;
+  for (const Vec3& p : scene.Points)
+  {
+    extent = std::max(extent, Length(p));
+  }
+  const double tolerance = 1e-12 * extent;
+  bool body = true;
+  bool room = true;
+  for (std::size_t t = 0; t < scene.Triangles.size() && (body || room); ++t)
+  {
+    const Triangle3 v = scene.TriangleAt(t);
+    const Vec3 n = Normalized(AreaNormal2(v));
+    for (const Vec3& p : scene.Points)
+    {
+      const double h = Dot(n, p - v[0]);
+      body = body && h <= tolerance;
+      room = room && h >= -tolerance;
+      if (!body && !room)
+      {
+        break;
+      }
+    }
+  }
+  return body ? Convexity::Body : (room ? Convexity::Room : Convexity::General);
+}
+
+EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,
+  const EffectAbilities& abilities)
+  : Decisions(EffectCount)
+{
+  const Materials& optics = scene.Optics;
+  const Convexity convexity = FindConvexity(scene);
+  const bool twoSided = AnyOn(optics.TwoSided);
+
+  const auto decide = [&](Effect effect, bool present, bool able, const std::string& whyAbsent,
+                        const std::string& whyPresent) {
+    EffectDecision& d = (*this)[effect];
+    const EffectSwitch wish = switches[static_cast<int>(effect)];
+    d.Present = present;
+    d.Simulated = able && wish != EffectSwitch::Off && (present || wish == EffectSwitch::On);
+    if (!present)
+    {
+      d.Why = d.Simulated ? "switched on; " + whyAbsent : whyAbsent;
+    }
+    else if (!able)
+    {
+      d.Why = whyPresent + "; not simulated by this filter";
+    }
+    else
+    {
+      d.Why = wish == EffectSwitch::Off ? "switched off; " + whyPresent : whyPresent;
+    }
+  };
+
+  bool spots = false;
+  bool legacy = false;
+  bool environment = false;
+  bool any = false;
+  for (const Light& light : scene.Lights)
+  {
+    if (light.Enabled)
+    {
+      any = true;
+      spots = spots || light.Type == LightType::Spot;
+      legacy = legacy || (light.Type != LightType::Directional && !light.InverseSquare());
+      environment = environment || light.Type == LightType::Environment;
+    }
+  }
+  const double emitted = Greatest(optics.EmittedExitance);
+  const double reflectance = Greatest(optics.DiffuseReflectance);
+  const double specular = Greatest(optics.SpecularReflectance);
+  const double transmitted = Greatest(optics.Transmittance);
+
+  const bool shadowless = !twoSided &&
+    (convexity == Convexity::Body || (convexity == Convexity::Room && LightsInside(scene)));
+  decide(Effect::Occlusion, (any || emitted > 0.0) && !shadowless, true,
+    !any && emitted <= 0.0
+      ? "no light is on"
+      : (convexity == Convexity::Body ? "the surface is a convex body: no face hides a light from another"
+                                      : "a convex room with its lights inside: nothing stands between"),
+    "surfaces may stand between a light and a cell");
+  decide(Effect::Interreflection,
+    reflectance > 0.0 && (convexity != Convexity::Body || twoSided) && (any || emitted > 0.0),
+    abilities.Interreflection,
+    reflectance <= 0.0 ? "no surface reflects diffusely"
+                       : (any || emitted > 0.0 ? "no front faces another" : "no light is on"),
+    "surfaces face each other and reflect up to " + std::to_string(reflectance));
+  decide(Effect::SpecularTransport, specular > 0.0, abilities.SpecularTransport,
+    "no surface reflects specularly", "surfaces reflect specularly");
+  decide(Effect::Transmission, transmitted > 0.0, abilities.Transmission,
+    "every surface is opaque", "some surfaces transmit light");
+  decide(Effect::BackFaces, twoSided, true, "no surface is two-sided",
+    "two-sided surfaces receive on their backs");
+  decide(Effect::Emission, emitted > 0.0, abilities.Emission, "no surface emits",
+    "surfaces emit light of their own");
+  decide(Effect::Environment, environment, abilities.Environment, "there is no environment light",
+    "there is an environment light");
+  decide(Effect::SpotShape, spots, true, "there is no spot light",
+    "spot lights have a cone or an exponent");
+  decide(Effect::Attenuation, legacy, true, "all lights obey the inverse square law",
+    "lights carry a legacy attenuation a + b r + c r^2 other than r^2");
+}
+
+void EffectPlan::Bound(
+  const Scene& scene, double peak, double peakBack, double spot, double attenuation)
+{
+  const double infinite = std::numeric_limits<double>::infinity();
+  const Materials& optics = scene.Optics;
+  const double emitted = Greatest(optics.EmittedExitance);
+  const double specular = Greatest(optics.SpecularReflectance);
+  const double transmitted = Greatest(optics.Transmittance);
+  const double reflectance =
+    std::max(0.0, Greatest(optics.DiffuseReflectance)) + specular + transmitted;
+  // No point gets more than all that any surface sends, were it all around it: E0/(1 - rho).
+  const double sent = std::max(peak, peakBack) * reflectance + emitted;
+  const double indirect = reflectance < 1.0 ? sent / (1.0 - reflectance) : infinite;
+  const auto orNothing = [](double factor, double value) { return factor > 0.0 ? value : 0.0; };
+
+  const double bounds[EffectCount] = {
+    peak + emitted,                                                          // Occlusion
+    reflectance < 1.0 ? (peak + emitted) * reflectance / (1.0 - reflectance)
+                      : orNothing(peak + emitted, infinite),                 // Interreflection
+    orNothing(specular, specular * (std::max(peak, peakBack) + indirect)),   // SpecularTransport
+    orNothing(transmitted, transmitted * (std::max(peak, peakBack) + indirect)), // Transmission
+    peakBack,                                                                // BackFaces
+    orNothing(emitted, reflectance < 1.0 ? emitted / (1.0 - reflectance) : infinite), // Emission
+    infinite,                                                                // Environment
+    spot,                                                                    // SpotShape
+    attenuation                                                              // Attenuation
+  };
+  for (int k = 0; k < EffectCount; ++k)
+  {
+    EffectDecision& d = this->Decisions[k];
+    d.Bound = d.Present && !d.Simulated ? bounds[k] : 0.0;
+  }
+}
+
+} // namespace radiometry

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/scene/Scene.h"
+
+#include <string>
+#include <vector>
+
+namespace radiometry
+{
+
+/// What a user asks of an effect: the values of the filters' switches.
+enum class EffectSwitch
+{
+  Auto = 0,
+  On = 1,
+  Off = 2
+};
+
+/// The effects that a simulation may carry or leave out.
+enum class Effect
+{
+  Occlusion,
+  Interreflection,
+  SpecularTransport,
+  Transmission,
+  BackFaces,
+  Emission,
+  Environment,
+  SpotShape,
+  Attenuation
+};
+inline constexpr int EffectCount = 9;
+const char* EffectName(Effect effect);
+
+/// One row of the EffectPlan table.
+struct EffectDecision
+{
+  bool Simulated = false;
+  bool Present = false;  // the scene calls for it
+  std::string Why;
+  double Bound = 0.0;    // greatest change of any irradiance value that leaving it out can make,
+                         // W/m^2, in any band; infinite where none can be given; 0 when simulated
+  double Seconds = 0.0;  // spent on it
+};
+
+/// What the filter at hand can do at all.
+struct EffectAbilities
+{
+  bool Interreflection = false; // false for direct light alone
+  bool Emission = false;
+  bool SpecularTransport = false;
+  bool Transmission = false;
+  bool Environment = false;
+};
+
+/// Decides, effect by effect, what the scene calls for, before anything is simulated.
+///   Occlusion      not needed when no triangle can hide a light from another: a convex body seen
+///                  from outside, a convex room with its lights inside
+///   Interreflection not needed when no front faces another, or nothing reflects
+///   SpotShape      not needed when there is no spot; Attenuation: when all lights obey 1/r^2
+///   BackFaces, Emission, SpecularTransport, Transmission: when no material asks for them
+class EffectPlan
+{
+public:
+  EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,
+    const EffectAbilities& abilities);
+
+  const EffectDecision& operator[](Effect effect) const
+  {
+    return this->Decisions[static_cast<int>(effect)];
+  }
+  EffectDecision& operator[](Effect effect) { return this->Decisions[static_cast<int>(effect)]; }
+  bool Simulates(Effect effect) const { return (*this)[effect].Simulated; }
+
+  /// Gives each effect that the scene has and the run left out its bound.
+  /// `peak`: the greatest irradiance by direct light that any cell could get, nothing in the way
+  /// (W/m^2, strongest band); `peakBack` the same of back faces; `spot` and `attenuation` the
+  /// greatest change of a cell's unshadowed irradiance by those effects.
+  void Bound(const Scene& scene, double peak, double peakBack, double spot, double attenuation);
+
+private:
+  std::vector<EffectDecision> Decisions;
+};
+
+/// How the triangles of a scene stand to each other.
+enum class Convexity
+{
+  General,
+  Body, // every point lies on or behind the plane of every triangle
+  Room  // every point lies on or before the plane of every triangle
+};
+/// O(triangles x points), with an early end; General, unexamined, above 4096 triangles.
+Convexity FindConvexity(const Scene& scene);
+
+} // namespace radiometry
