@@ -2,6 +2,7 @@
 #include "LightPolyData.h"
 
 #include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/InputError.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -92,4 +93,90 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
   {
     lightNames->SetValue(i, lights[i].Name);
   }
+}
+
+std::vector<radiometry::LightRecord> ReadLights(
+  vtkPolyData* input, int bands, const std::string& prefix)
+{
+  using radiometry::InputError;
+  const vtkIdType n = input->GetNumberOfPoints();
+  const auto find = [&](const char* name, int components) {
+    vtkDataArray* array = input->GetPointData()->GetArray(name);
+    if (array && array->GetNumberOfComponents() != components)
+    {
+      throw InputError(prefix + name, -1,
+        std::to_string(array->GetNumberOfComponents()) + " components",
+        std::to_string(components) + (components == 1 ? " component" : " components"));
+    }
+    return array;
+  };
+  vtkDataArray* type = find(names::LightType, 1);
+  vtkDataArray* direction = find(names::Direction, 3);
+  vtkDataArray* cutoff = find(names::SpotCutoff, 1);
+  vtkDataArray* inner = find(names::SpotInnerCutoff, 1);
+  vtkDataArray* exponent = find(names::SpotExponent, 1);
+  vtkDataArray* attenuation = find(names::Attenuation, 3);
+  vtkDataArray* enabled = find(names::LightEnabled, 1);
+  vtkDataArray* attached = find(names::AttachedTo, 1);
+  vtkDataArray* intensity = input->GetPointData()->GetArray(names::Intensity);
+  if (n > 0 && !intensity)
+  {
+    throw InputError(prefix + names::Intensity, -1, "missing",
+      "a point array of lights (W/sr; directional: W/m^2)");
+  }
+  if (intensity && intensity->GetNumberOfComponents() != 1 &&
+    intensity->GetNumberOfComponents() != bands)
+  {
+    throw InputError(prefix + names::Intensity, -1,
+      std::to_string(intensity->GetNumberOfComponents()) + " components",
+      "1 or " + std::to_string(bands) + " components");
+  }
+
+  const auto vector = [](vtkDataArray* array, vtkIdType i) {
+    return radiometry::Vec3{ array->GetComponent(i, 0), array->GetComponent(i, 1),
+      array->GetComponent(i, 2) };
+  };
+  std::vector<radiometry::LightRecord> lights(static_cast<std::size_t>(n));
+  for (vtkIdType i = 0; i < n; ++i)
+  {
+    radiometry::LightRecord& light = lights[i];
+    const double kind = type ? type->GetComponent(i, 0) : 0.0;
+    if (kind == 3.0 || kind == 4.0)
+    {
+      throw InputError(prefix + names::LightType, i, kind,
+        "0 point, 1 spot or 2 directional (area and environment lights are not available in this "
+        "version; an emitting surface is, by EmittedExitance)");
+    }
+    if (kind != 0.0 && kind != 1.0 && kind != 2.0)
+    {
+      throw InputError(prefix + names::LightType, i, kind,
+        "0 point, 1 spot, 2 directional, 3 area or 4 environment");
+    }
+    light.Type = static_cast<radiometry::LightType>(static_cast<int>(kind));
+    double p[3];
+    input->GetPoint(i, p);
+    light.Position = { p[0], p[1], p[2] };
+    light.Direction = direction ? vector(direction, i) : light.Direction;
+    light.Intensity.resize(static_cast<std::size_t>(bands));
+    for (int b = 0; b < bands; ++b)
+    {
+      light.Intensity[b] =
+        intensity->GetComponent(i, intensity->GetNumberOfComponents() == 1 ? 0 : b);
+    }
+    light.SpotCutoff = cutoff ? cutoff->GetComponent(i, 0) : light.SpotCutoff;
+    light.SpotInnerCutoff = inner ? inner->GetComponent(i, 0) : light.SpotInnerCutoff;
+    light.SpotExponent = exponent ? exponent->GetComponent(i, 0) : light.SpotExponent;
+    light.Attenuation = attenuation ? vector(attenuation, i) : light.Attenuation;
+    light.Enabled = !enabled || enabled->GetComponent(i, 0) != 0.0;
+    light.AttachedTo = attached ? static_cast<int>(attached->GetComponent(i, 0)) : 0;
+    try
+    {
+      radiometry::Validate(light, i);
+    }
+    catch (const InputError& error)
+    {
+      throw InputError(prefix + error.Array, error.Index, error.Value, error.Expected);
+    }
+  }
+  return lights;
 }

@@ -3,6 +3,7 @@
 
 #include "radiometry/scene/LightRecord.h"
 
+#include <string>
 #include <vector>
 
 class vtkPolyData;
@@ -11,3 +12,9 @@ class vtkPolyData;
 /// All records must have the same number of bands.
 void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, bool photometric,
   double luminousEfficacy, vtkPolyData* output);
+
+/// Reads them back: every point of `input` is a light; arrays that are missing take their defaults
+/// (docs/arrays.md). An Intensity of one component serves all bands.
+/// Fails: radiometry::InputError naming `prefix` + array, index and value.
+std::vector<radiometry::LightRecord> ReadLights(
+  vtkPolyData* input, int bands, const std::string& prefix = "");

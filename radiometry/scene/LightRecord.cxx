@@ -147,4 +147,30 @@ void Validate(const LightRecord& light, long long index)
   }
 }
 
+Light ToLight(
+  const LightRecord& record, double metersPerUnit, const Vec3& origin, std::size_t index)
+{
+  Light light;
+  light.Type = record.Type;
+  light.Position = metersPerUnit * record.Position - origin;
+  light.Direction =
+    record.Type == LightType::Point ? record.Direction : Normalized(record.Direction);
+  light.Intensity = record.Intensity;
+  light.Enabled = record.Enabled;
+  light.Index = static_cast<long long>(index);
+  for (int k = 0; k < 3; ++k)
+  {
+    light.Attenuation[k] = record.Attenuation[k];
+  }
+  if (record.Type == LightType::Spot && record.SpotCutoff < 180.0)
+  {
+    light.CosCutoff = record.SpotCutoff == 90.0 ? 0.0 : std::cos(units::Radians(record.SpotCutoff));
+    light.Exponent = record.SpotExponent;
+    light.SmoothEdge = record.SpotInnerCutoff >= 0.0;
+    light.CosInnerCutoff =
+      light.SmoothEdge ? std::cos(units::Radians(record.SpotInnerCutoff)) : light.CosCutoff;
+  }
+  return light;
+}
+
 } // namespace radiometry

@@ -31,6 +31,11 @@ struct LightRecord
 /// vanishes everywhere.
 void Validate(const LightRecord& light, long long index = -1);
 
+/// The light of a simulation: metres relative to `origin`, radians, a unit direction. A spot of 180
+/// degrees has no cone and, as in OpenGL, no exponent.
+Light ToLight(
+  const LightRecord& record, double metersPerUnit, const Vec3& origin, std::size_t index);
+
 /// The direction as a unit vector. Throws InputError naming `name` when it is not finite or zero.
 Vec3 UnitDirection(const char* name, const Vec3& direction, long long index = -1);
 

@@ -149,6 +149,19 @@ void Filter(const RTCFilterFunctionNArguments* args)
   }
 }
 
+/// True when `p` is within Closeness of the box.
+bool Near(const Box3& box, const Vec3& p)
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    if (p[a] < box.Min[a] - Closeness || p[a] > box.Max[a] + Closeness)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 RTCDevice Device()
 {
   // One device for the process: creating one costs milliseconds. Never released: Embree's own
@@ -526,20 +539,44 @@ bool OcclusionScene::OccludedDirection(const RayEnd& from, const Vec3& direction
 bool OcclusionScene::TooClose(const Vec3& point) const
 {
   const Vec3 p = this->Impl->ToBox(point);
-  const auto reaches = [&](const Box3& box) {
-    for (int a = 0; a < 3; ++a)
-    {
-      if (p[a] < box.Min[a] - Closeness || p[a] > box.Max[a] + Closeness)
+  return !this->Impl->Tree.Visit(
+    [&](const Box3& box) { return Near(box, p); },
+    [&](std::int32_t t) {
+      const Triangle3& v = this->Impl->Triangles[t];
+      return std::fabs(Dot(Normalized(AreaNormal2(v)), p - v[0])) > Closeness;
+    });
+}
+
+std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal) const
+{
+  const Vec3 p = this->Impl->ToBox(point);
+  std::int32_t found = -1;
+  double nearest = Closeness;
+  this->Impl->Tree.Visit([&](const Box3& box) { return Near(box, p); },
+    [&](std::int32_t t) {
+      const Triangle3& v = this->Impl->Triangles[t];
+      const Vec3 n = Normalized(AreaNormal2(v));
+      const double h = std::fabs(Dot(n, p - v[0]));
+      bool inside = std::fabs(Dot(n, normal)) > 0.866;
+      for (int k = 0; k < 3 && inside; ++k)
       {
-        return false;
+        const Vec3 edge = Normalized(v[(k + 1) % 3] - v[k]);
+        inside = Dot(n, Cross(edge, p - v[k])) > -Closeness;
       }
-    }
-    return true;
-  };
-  return !this->Impl->Tree.Visit(reaches, [&](std::int32_t t) {
-    const Triangle3& v = this->Impl->Triangles[t];
-    return std::fabs(Dot(Normalized(AreaNormal2(v)), p - v[0])) > Closeness;
-  });
+      if (inside && (h < nearest || (h == nearest && t < found)))
+      {
+        nearest = h;
+        found = t;
+      }
+      return true;
+    });
+  if (found >= 0)
+  {
+    const Triangle3& v = this->Impl->Triangles[found];
+    const Vec3 n = Normalized(AreaNormal2(v));
+    point = point - (Dot(n, p - v[0]) / this->Impl->Scale) * n;
+  }
+  return found;
 }
 
 SurfaceHit OcclusionScene::Closest(const RayEnd& from, const Vec3& direction) const

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkRadiometricFilter.h"
+
+#include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/effects/EffectPlan.h"
+#include "radiometry/scene/Parallel.h"
+#include "radiometry/scene/Patch.h"
+#include "radiometry/scene/Scene.h"
+
+#include <string>
+#include <vector>
+
+/// What a simulating filter is to compute: made by vtkRadiometricFilter, read by its subclasses.
+struct vtkRadiometricFilter::Job
+{
+  const radiometry::Scene& Scene;
+  std::vector<radiometry::EffectSwitch> Switches;
+  /// Wanted at points: sensors, and the vertices of surfaces when SampleLocation is Points.
+  std::vector<radiometry::SurfacePoint> Points;
+  bool WantCells = true;
+  radiometry::Monitor* Progress = nullptr;
+};
+
+/// What it computed.
+struct vtkRadiometricFilter::Result
+{
+  /// A quantity with its error, values x bands.
+  struct Quantity
+  {
+    std::string Name; // of the array
+    std::string Unit;
+    std::vector<double> Values;
+    std::vector<double> Errors;
+  };
+  std::vector<Quantity> Cells;
+  std::vector<Quantity> Points; // as Job::Points
+  radiometry::ConvergenceRecord Convergence;
+  std::vector<radiometry::EffectDecision> Effects; // by Effect
+  std::string Outcome;
+};

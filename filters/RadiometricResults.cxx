@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RadiometricResults.h"
+
+#include "SceneAdapter.h"
+#include "SurfacePoints.h"
+#include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/Units.h"
+
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <array>
+
+namespace names = radiometry::names;
+
+namespace
+{
+
+struct Photometry
+{
+  const char* Radiometric;
+  const char* Photometric;
+  const char* Unit;
+};
+constexpr std::array<Photometry, 3> PhotometricNames{ Photometry{ names::Irradiance,
+                                                        names::Illuminance, "lx" },
+  Photometry{ names::Radiosity, names::LuminousExitance, "lm/m^2" },
+  Photometry{ names::Radiance, names::Luminance, "cd/m^2" } };
+
+/// The photometric counterpart of a quantity, "IrradianceBack" included; null: none.
+const Photometry* Counterpart(const std::string& name, std::string& renamed)
+{
+  for (const Photometry& p : PhotometricNames)
+  {
+    if (name == p.Radiometric || name == std::string(p.Radiometric) + names::BackSuffix)
+    {
+      renamed = p.Photometric + name.substr(std::string(p.Radiometric).size());
+      return &p;
+    }
+  }
+  return nullptr;
+}
+
+/// The leaves in the order in which SceneAdapter saw them.
+std::vector<vtkPolyData*> MakeLeaves(vtkDataObject* output, vtkDataObject* input)
+{
+  std::vector<vtkPolyData*> leaves;
+  auto* composite = vtkCompositeDataSet::SafeDownCast(output);
+  if (!composite)
+  {
+    leaves.push_back(vtkPolyData::SafeDownCast(output));
+    return leaves;
+  }
+  auto* source = vtkCompositeDataSet::SafeDownCast(input);
+  composite->CopyStructure(source);
+  auto iterator = vtk::TakeSmartPointer(source->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    vtkNew<vtkPolyData> leaf;
+    composite->SetDataSet(iterator, leaf);
+    leaves.push_back(leaf); // kept alive by the composite
+  }
+  return leaves;
+}
+
+void AddStrings(vtkFieldData* data, const char* name, const std::vector<std::string>& values)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  data->AddArray(array);
+}
+
+template <typename Array>
+Array* AddColumn(vtkTable* table, const char* name)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  table->AddColumn(column);
+  return column; // kept alive by the table
+}
+
+} // namespace
+
+void RadiometricResults::AddArrays(const std::vector<Result::Quantity>& quantities,
+  std::size_t first, vtkIdType count, vtkFieldData* data, bool empty) const
+{
+  const auto add = [&](const std::string& name, const std::vector<double>& values, bool photometric) {
+    const int components = photometric ? 1 : this->Bands;
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const double* tuple = empty ? nullptr : &values[(first + i) * this->Bands];
+      if (photometric)
+      {
+        array->SetValue(
+          i, tuple ? radiometry::units::Photometric(tuple, this->Bands, this->Efficacy) : 0.0);
+      }
+      else
+      {
+        for (int b = 0; b < components; ++b)
+        {
+          array->SetTypedComponent(i, b, tuple ? tuple[b] : 0.0);
+        }
+      }
+    }
+    data->AddArray(array);
+  };
+  for (const Result::Quantity& q : quantities)
+  {
+    add(q.Name, q.Values, false);
+    add(q.Name + names::ErrorSuffix, q.Errors, false);
+    std::string photometric;
+    if (this->Efficacy > 0.0 && Counterpart(q.Name, photometric))
+    {
+      add(photometric, q.Values, true);
+      add(photometric + names::ErrorSuffix, q.Errors, true);
+    }
+  }
+}
+
+void RadiometricResults::WriteSurface(const Result& result, const SceneAdapter& adapter,
+  const SurfacePoints& points, vtkDataObject* output, vtkDataObject* input) const
+{
+  const std::vector<vtkPolyData*> leaves = MakeLeaves(output, input);
+  for (std::size_t k = 0; k < leaves.size() && k < adapter.Blocks().size(); ++k)
+  {
+    const SceneAdapter::Block& block = adapter.Blocks()[k];
+    const SurfacePoints::Block& carrier = points.Blocks()[k];
+    vtkPolyData* leaf = leaves[k];
+    leaf->ShallowCopy(carrier.Data ? carrier.Data : block.Data);
+    if (carrier.Data)
+    {
+      this->AddArrays(result.Points, carrier.First, leaf->GetNumberOfPoints(),
+        leaf->GetPointData(), result.Points.empty());
+      leaf->GetPointData()->SetActiveScalars(names::Irradiance);
+    }
+    else
+    {
+      this->AddArrays(
+        result.Cells, block.FirstCell, block.Cells, leaf->GetCellData(), result.Cells.empty());
+      leaf->GetCellData()->SetActiveScalars(names::Irradiance);
+    }
+    this->AddFieldData(result, leaf);
+  }
+}
+
+void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* output) const
+{
+  std::vector<std::string> units;
+  for (const Result::Quantity& q : result.Cells.empty() ? result.Points : result.Cells)
+  {
+    units.push_back(q.Name + " [" + q.Unit + "]");
+    std::string photometric;
+    if (this->Efficacy > 0.0)
+    {
+      if (const Photometry* p = Counterpart(q.Name, photometric))
+      {
+        units.push_back(photometric + " [" + p->Unit + "]");
+      }
+    }
+  }
+  vtkFieldData* data = output->GetFieldData();
+  AddStrings(data, "RadiometryUnits", units);
+  AddStrings(data, "RadiometryVersion", { VTKRADIOMETRY_VERSION });
+  AddStrings(data, "RadiometryOptions", { this->Filter + ": " + this->Options });
+  AddStrings(data, "RadiometryOutcome", { result.Outcome });
+}
+
+void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) const
+{
+  auto* effect = AddColumn<vtkStringArray>(table, "Effect");
+  auto* decision = AddColumn<vtkStringArray>(table, "Decision");
+  auto* why = AddColumn<vtkStringArray>(table, "Why");
+  auto* bound = AddColumn<vtkDoubleArray>(table, "Bound");
+  auto* unit = AddColumn<vtkStringArray>(table, "Unit");
+  auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
+  for (std::size_t k = 0; k < result.Effects.size(); ++k)
+  {
+    const radiometry::EffectDecision& d = result.Effects[k];
+    effect->InsertNextValue(radiometry::EffectName(static_cast<radiometry::Effect>(k)));
+    decision->InsertNextValue(d.Simulated ? "simulated" : (d.Present ? "left out" : "not needed"));
+    why->InsertNextValue(d.Why);
+    bound->InsertNextValue(d.Bound);
+    unit->InsertNextValue("W/m^2");
+    seconds->InsertNextValue(d.Seconds);
+  }
+}
+
+void RadiometricResults::WriteConvergence(const Result& result, vtkTable* table) const
+{
+  auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
+  auto* relative = AddColumn<vtkDoubleArray>(table, "EstimatedError");
+  auto* absolute = AddColumn<vtkDoubleArray>(table, "AbsoluteError");
+  auto* samples = AddColumn<vtkIdTypeArray>(table, "Samples");
+  auto* stage = AddColumn<vtkStringArray>(table, "Stage");
+  for (const auto& row : result.Convergence.Rows)
+  {
+    seconds->InsertNextValue(row.Seconds);
+    relative->InsertNextValue(row.RelativeError);
+    absolute->InsertNextValue(row.AbsoluteError);
+    samples->InsertNextValue(row.Samples);
+    stage->InsertNextValue(row.Stage);
+  }
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "RadiometricJob.h"
+
+#include <string>
+
+class SceneAdapter;
+class SurfacePoints;
+class vtkCompositeDataSet;
+class vtkDataObject;
+class vtkFieldData;
+class vtkPolyData;
+class vtkTable;
+
+/// Writes what a simulating filter computed onto its outputs.
+class RadiometricResults
+{
+public:
+  using Result = vtkRadiometricFilter::Result;
+
+  /// `efficacy` above 0: photometric arrays are added [lm/W].
+  RadiometricResults(int bands, double efficacy, std::string filter, std::string options)
+    : Bands(bands)
+    , Efficacy(efficacy)
+    , Filter(std::move(filter))
+    , Options(std::move(options))
+  {
+  }
+
+  void WriteSurface(const Result& result, const SceneAdapter& adapter, const SurfacePoints& points,
+    vtkDataObject* output, vtkDataObject* input) const;
+  void WriteEffects(const Result& result, vtkTable* table) const;
+  void WriteConvergence(const Result& result, vtkTable* table) const;
+
+private:
+  void AddArrays(const std::vector<Result::Quantity>& quantities, std::size_t first,
+    vtkIdType count, vtkFieldData* data, bool empty) const;
+  void AddFieldData(const Result& result, vtkDataObject* output) const;
+
+  int Bands;
+  double Efficacy;
+  std::string Filter;
+  std::string Options;
+};

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRadiometricFilter.h"
+
+#include "RadiometricJob.h"
+#include "RadiometricResults.h"
+#include "SceneAdapter.h"
+#include "SurfacePoints.h"
+#include "radiometry/scene/InputError.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace
+{
+
+/// Hands the core's progress to VTK and VTK's abort to the core.
+class FilterMonitor : public radiometry::Monitor
+{
+public:
+  explicit FilterMonitor(vtkAlgorithm* filter)
+    : Filter(filter)
+  {
+  }
+  bool Progress(double fraction, const char* stage) override
+  {
+    this->Filter->SetProgressText(stage);
+    this->Filter->UpdateProgress(fraction);
+    return this->Filter->GetAbortExecute() == 0;
+  }
+
+private:
+  vtkAlgorithm* Filter;
+};
+
+void CheckRange(const char* name, double value, double least, double most, const char* expected)
+{
+  if (!(value >= least && value <= most))
+  {
+    throw radiometry::InputError(name, -1, value, expected);
+  }
+}
+
+} // namespace
+
+vtkRadiometricFilter::vtkRadiometricFilter()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(3);
+}
+
+void vtkRadiometricFilter::AddLightsConnection(vtkAlgorithmOutput* lights)
+{
+  this->AddInputConnection(1, lights);
+}
+void vtkRadiometricFilter::AddLightsData(vtkDataObject* lights)
+{
+  this->AddInputDataInternal(1, lights);
+}
+void vtkRadiometricFilter::AddOccludersConnection(vtkAlgorithmOutput* occluders)
+{
+  this->AddInputConnection(2, occluders);
+}
+void vtkRadiometricFilter::AddOccludersData(vtkDataObject* occluders)
+{
+  this->AddInputDataInternal(2, occluders);
+}
+
+int vtkRadiometricFilter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  if (port > 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
+  return 1;
+}
+
+int vtkRadiometricFilter::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkDataObject" : "vtkTable");
+  return 1;
+}
+
+int vtkRadiometricFilter::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  if (!input)
+  {
+    return 0;
+  }
+  // A composite keeps its structure; everything else becomes a surface of polygons.
+  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
+  const char* wanted = composite ? input->GetClassName() : "vtkPolyData";
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  if (!output || !output->IsA(wanted))
+  {
+    auto made = vtk::TakeSmartPointer(
+      composite ? input->NewInstance() : static_cast<vtkDataObject*>(vtkPolyData::New()));
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  for (int port = 1; port < 3; ++port)
+  {
+    if (!vtkTable::GetData(outputs, port))
+    {
+      vtkNew<vtkTable> table;
+      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), table);
+    }
+  }
+  return 1;
+}
+
+int vtkRadiometricFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  vtkTable* effects = vtkTable::GetData(outputs, 1);
+  vtkTable* convergence = vtkTable::GetData(outputs, 2);
+  const auto clear = [&] {
+    output->Initialize();
+    effects->Initialize();
+    convergence->Initialize();
+  };
+  clear();
+  try
+  {
+    const double infinite = std::numeric_limits<double>::max();
+    CheckRange("RelativeTolerance", this->RelativeTolerance, 0.0, 1.0, "a number in [0, 1]");
+    CheckRange("AbsoluteTolerance", this->AbsoluteTolerance, 0.0, infinite, "at least 0");
+    CheckRange("TimeBudget", this->TimeBudget, 0.0, infinite, "seconds, at least 0");
+    CheckRange("MemoryLimit", this->MemoryLimit, 0.0, infinite, "MiB, at least 0");
+    CheckRange("LuminousEfficacy", this->LuminousEfficacy, 1e-300, infinite, "lm/W, above 0");
+
+    SceneAdapter adapter(this->MetersPerUnit, this->TwoSided, this->DiffuseReflectance);
+    adapter.AddSurface(input);
+    for (int k = 0; k < inputs[1]->GetNumberOfInformationObjects(); ++k)
+    {
+      adapter.AddLights(vtkDataObject::GetData(inputs[1], k));
+    }
+    for (int k = 0; k < inputs[2]->GetNumberOfInformationObjects(); ++k)
+    {
+      adapter.AddOccluder(vtkDataObject::GetData(inputs[2], k));
+    }
+    const radiometry::Scene scene = adapter.Build();
+
+    FilterMonitor monitor(this);
+    Job job{ scene, {}, {}, true, &monitor };
+    for (const int choice : { this->Occlusion, this->Interreflection, this->SpecularTransport,
+           this->Transmission, this->BackFaces, this->Emission, this->Environment, this->SpotShape,
+           this->Attenuation })
+    {
+      job.Switches.push_back(static_cast<radiometry::EffectSwitch>(choice));
+    }
+    const SurfacePoints points(adapter, scene, this->MetersPerUnit,
+      this->SampleLocation == POINTS, this->FeatureAngle);
+    job.Points = points.Points();
+    job.WantCells = this->SampleLocation == CELLS;
+
+    Result result;
+    this->Simulate(job, result);
+
+    std::ostringstream options;
+    options << "RelativeTolerance=" << this->RelativeTolerance
+            << "; AbsoluteTolerance=" << this->AbsoluteTolerance
+            << "; TimeBudget=" << this->TimeBudget
+            << "; SampleLocation=" << (this->SampleLocation == CELLS ? "Cells" : "Points")
+            << "; TwoSided=" << this->TwoSided << "; MetersPerUnit=" << this->MetersPerUnit
+            << "; CellsWithoutArea=" << adapter.CellsWithoutArea();
+    const RadiometricResults writer(scene.Optics.Bands,
+      this->Photometric ? this->LuminousEfficacy : 0.0, this->GetClassName(), options.str());
+    writer.WriteSurface(result, adapter, points, output, input);
+    writer.WriteEffects(result, effects);
+    writer.WriteConvergence(result, convergence);
+  }
+  catch (const radiometry::Aborted&)
+  {
+    clear();
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    clear();
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  this->UpdateProgress(1.0);
+  return 1;
+}
+
+void vtkRadiometricFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RelativeTolerance: " << this->RelativeTolerance << '\n'
+     << indent << "AbsoluteTolerance: " << this->AbsoluteTolerance << " W/m^2\n"
+     << indent << "TimeBudget: " << this->TimeBudget << " s\n"
+     << indent << "MemoryLimit: " << this->MemoryLimit << " MiB\n"
+     << indent << "SampleLocation: " << (this->SampleLocation == CELLS ? "Cells" : "Points") << '\n'
+     << indent << "TwoSided: " << this->TwoSided << '\n'
+     << indent << "MetersPerUnit: " << this->MetersPerUnit << '\n'
+     << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkRadiometricFilter_h
+#define vtkRadiometricFilter_h
+
+#include "vtkDataObjectAlgorithm.h"
+#include "vtkRadiometryFiltersModule.h"
+
+/// What the simulating filters share: ports, switches, checks and the writing of results.
+///   Ports   0 surface; 1 lights (repeatable, optional); 2 occluders (repeatable, optional).
+///           Surface and occluders: polydata, composite data, or any dataset, whose outer surface
+///           is then taken.
+///   Outputs 0 the surface with its results; 1 EffectPlan; 2 Convergence (vtkTable)
+///   Reads   the material and light arrays of docs/arrays.md
+///   Writes  field data on output 0: RadiometryUnits, RadiometryVersion, RadiometryOptions,
+///           RadiometryOutcome (what ended the run)
+///   Fails   input that cannot be computed with: an error that names array, index and value, empty
+///           outputs
+class VTKRADIOMETRYFILTERS_EXPORT vtkRadiometricFilter : public vtkDataObjectAlgorithm
+{
+public:
+  vtkTypeMacro(vtkRadiometricFilter, vtkDataObjectAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The values of SampleLocation.
+  enum SampleLocations
+  {
+    CELLS = 0,
+    POINTS = 1
+  };
+  /// The values of the effect switches and of Refinement.
+  enum Switches
+  {
+    AUTO = 0,
+    ON = 1,
+    OFF = 2
+  };
+
+  struct Job;    // RadiometricJob.h; not part of the public interface
+  struct Result;
+
+  /// Lights (input port 1, repeatable).
+  void AddLightsConnection(vtkAlgorithmOutput* lights);
+  void AddLightsData(vtkDataObject* lights);
+  /// Further surfaces that only block light (input port 2, repeatable).
+  void AddOccludersConnection(vtkAlgorithmOutput* occluders);
+  void AddOccludersData(vtkDataObject* occluders);
+
+  ///@{
+  /// Error that each value is computed to, relative to the value. Default 0.01. Range [0, 1].
+  vtkSetMacro(RelativeTolerance, double);
+  vtkGetMacro(RelativeTolerance, double);
+  ///@}
+  ///@{
+  /// Error that is good enough whatever the value [W/m^2]. Default 0. At least 0.
+  vtkSetMacro(AbsoluteTolerance, double);
+  vtkGetMacro(AbsoluteTolerance, double);
+  ///@}
+  ///@{
+  /// Seconds after which refinement stops, tolerance met or not; the result says which. Default 0,
+  /// no limit. The first estimate of every value is always finished.
+  vtkSetMacro(TimeBudget, double);
+  vtkGetMacro(TimeBudget, double);
+  ///@}
+  ///@{
+  /// Memory that the run may take [MiB]. Default 0: half of the machine's.
+  vtkSetMacro(MemoryLimit, double);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+  ///@{
+  /// Where results are wanted: averages over cells (0, default) or values at points (1), about
+  /// point normals, points split where faces meet at more than FeatureAngle.
+  vtkSetClampMacro(SampleLocation, int, CELLS, POINTS);
+  vtkGetMacro(SampleLocation, int);
+  ///@}
+  ///@{
+  /// Angle between faces [degrees] above which a point on their common edge is split. Default 30.
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  ///@}
+  ///@{
+  /// Whether surfaces receive, emit and reflect on both sides. Default off: the front only (where
+  /// points turn counter-clockwise). A cell array TwoSided overrides it cell by cell.
+  vtkSetMacro(TwoSided, bool);
+  vtkGetMacro(TwoSided, bool);
+  vtkBooleanMacro(TwoSided, bool);
+  ///@}
+  ///@{
+  /// Whether the solution may be computed on a finer mesh inside. 0 Auto (default), 1 On, 2 Off:
+  /// one constant radiosity a cell.
+  vtkSetClampMacro(Refinement, int, AUTO, OFF);
+  vtkGetMacro(Refinement, int);
+  ///@}
+  ///@{
+  /// Metres per unit of the coordinates, of surface, occluders and lights alike. Default 1. > 0.
+  vtkSetMacro(MetersPerUnit, double);
+  vtkGetMacro(MetersPerUnit, double);
+  ///@}
+  ///@{
+  /// Threads to use; 0 (default): all. The result has the same bytes for any number.
+  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+  ///@{
+  /// Diffuse reflectance of surfaces without the array DiffuseReflectance. Default 0.5. [0, 1].
+  vtkSetMacro(DiffuseReflectance, double);
+  vtkGetMacro(DiffuseReflectance, double);
+  ///@}
+  ///@{
+  /// Whether photometric arrays are written too: Illuminance [lx], LuminousExitance [lm/m^2] and
+  /// Luminance [cd/m^2], of one component. Default off.
+  vtkSetMacro(Photometric, bool);
+  vtkGetMacro(Photometric, bool);
+  vtkBooleanMacro(Photometric, bool);
+  ///@}
+  ///@{
+  /// Luminous efficacy [lm/W] by which they are computed; with three bands, the bands' shares are
+  /// those of linear Rec.709. Default 683.002. > 0.
+  vtkSetMacro(LuminousEfficacy, double);
+  vtkGetMacro(LuminousEfficacy, double);
+  ///@}
+
+  ///@{
+  /// What to simulate: 0 Auto (default; what the scene calls for), 1 On, 2 Off (left out, and the
+  /// EffectPlan still bounds what that may change).
+  vtkSetClampMacro(Occlusion, int, AUTO, OFF);
+  vtkGetMacro(Occlusion, int);
+  vtkSetClampMacro(Interreflection, int, AUTO, OFF);
+  vtkGetMacro(Interreflection, int);
+  vtkSetClampMacro(SpecularTransport, int, AUTO, OFF);
+  vtkGetMacro(SpecularTransport, int);
+  vtkSetClampMacro(Transmission, int, AUTO, OFF);
+  vtkGetMacro(Transmission, int);
+  vtkSetClampMacro(BackFaces, int, AUTO, OFF);
+  vtkGetMacro(BackFaces, int);
+  vtkSetClampMacro(Emission, int, AUTO, OFF);
+  vtkGetMacro(Emission, int);
+  vtkSetClampMacro(Environment, int, AUTO, OFF);
+  vtkGetMacro(Environment, int);
+  vtkSetClampMacro(SpotShape, int, AUTO, OFF);
+  vtkGetMacro(SpotShape, int);
+  vtkSetClampMacro(Attenuation, int, AUTO, OFF);
+  vtkGetMacro(Attenuation, int);
+  ///@}
+
+protected:
+  vtkRadiometricFilter();
+  ~vtkRadiometricFilter() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  /// The subclass's physics: reads the job, calls the core, fills the result.
+  virtual void Simulate(Job& job, Result& result) = 0;
+
+  double RelativeTolerance = 0.01;
+  double AbsoluteTolerance = 0.0;
+  double TimeBudget = 0.0;
+  double MemoryLimit = 0.0;
+  int SampleLocation = CELLS;
+  double FeatureAngle = 30.0;
+  bool TwoSided = false;
+  int Refinement = AUTO;
+  double MetersPerUnit = 1.0;
+  int NumberOfThreads = 0;
+  double DiffuseReflectance = 0.5;
+  bool Photometric = false;
+  double LuminousEfficacy = 683.002;
+  int Occlusion = AUTO;
+  int Interreflection = AUTO;
+  int SpecularTransport = AUTO;
+  int Transmission = AUTO;
+  int BackFaces = AUTO;
+  int Emission = AUTO;
+  int Environment = AUTO;
+  int SpotShape = AUTO;
+  int Attenuation = AUTO;
+
+private:
+  vtkRadiometricFilter(const vtkRadiometricFilter&) = delete;
+  void operator=(const vtkRadiometricFilter&) = delete;
+};
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/effects/EffectPlan.h"
+#include "radiometry/irradiance/DirectIrradiance.h"
+#include "radiometry/scene/Patch.h"
+#include "radiometry/scene/Scene.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace radiometry
+{
+
+struct IrradianceOptions
+{
+  double RelativeTolerance = 0.01;
+  double AbsoluteTolerance = 0.0; // W/m^2
+  double TimeBudget = 0.0;        // s; 0: none
+  int Threads = 0;                // 0: all
+  bool Cells = true;              // compute averages over cells
+  std::vector<EffectSwitch> Switches = std::vector<EffectSwitch>(EffectCount);
+};
+
+/// Values with their errors, items x bands; empty where not computed.
+struct FieldValues
+{
+  std::vector<double> Values;
+  std::vector<double> Errors;
+};
+
+struct IrradianceResult
+{
+  std::array<FieldValues, 2> Cells;  // front, back (where any cell is two-sided); W/m^2
+  std::array<FieldValues, 2> Points;
+  std::vector<EffectDecision> Effects;
+  ConvergenceRecord Convergence;
+  std::string Outcome; // what ended the run
+};
+
+/// Direct light on a scene: plans the effects, computes what it calls for, bounds what it left out.
+IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<SurfacePoint>& points,
+  const IrradianceOptions& options, Monitor* monitor = nullptr);
+
+/// One patch for each receiving triangle, of side 0 or 1; side 1 only where cells are two-sided.
+std::vector<Patch> MakePatches(const Scene& scene, int side);
+
+/// Area-weighted means over the patches of each cell; errors of patches are independent.
+FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches,
+  const std::vector<double>& values, const std::vector<double>& errors);
+
+/// Greatest changes of the unshadowed irradiance of any patch that leaving an effect out makes:
+/// what EffectPlan::Bound asks for.
+struct UnshadowedExtremes
+{
+  double Peak = 0.0;
+  double PeakBack = 0.0;
+  double Spot = 0.0;
+  double Attenuation = 0.0;
+};
+UnshadowedExtremes FindUnshadowedExtremes(
+  const Scene& scene, const OcclusionScene& occluders, const EffectPlan& plan, int threads);
+
+} // namespace radiometry
