@@ -74,6 +74,15 @@ void vtkRadiometricFilter::AddOccludersData(vtkDataObject* occluders)
   this->AddInputDataInternal(2, occluders);
 }
 
+void vtkRadiometricFilter::RemoveLightsConnections()
+{
+  this->SetInputConnection(1, nullptr);
+}
+void vtkRadiometricFilter::RemoveOccludersConnections()
+{
+  this->SetInputConnection(2, nullptr);
+}
+
 int vtkRadiometricFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");

@@ -41,9 +41,11 @@ public:
   /// Lights (input port 1, repeatable).
   void AddLightsConnection(vtkAlgorithmOutput* lights);
   void AddLightsData(vtkDataObject* lights);
+  void RemoveLightsConnections();
   /// Further surfaces that only block light (input port 2, repeatable).
   void AddOccludersConnection(vtkAlgorithmOutput* occluders);
   void AddOccludersData(vtkDataObject* occluders);
+  void RemoveOccludersConnections();
 
   ///@{
   /// Error that each value is computed to, relative to the value. Default 0.01. Range [0, 1].
