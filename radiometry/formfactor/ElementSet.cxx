@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/formfactor/ElementSet.h"
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+namespace radiometry
+{
+namespace
+{
+
+std::array<Triangle3, 4> Children(const Triangle3& t)
+{
+  const Vec3 a = 0.5 * (t[1] + t[2]);
+  const Vec3 b = 0.5 * (t[0] + t[2]);
+  const Vec3 c = 0.5 * (t[0] + t[1]);
+  return { Triangle3{ t[0], c, b }, Triangle3{ c, t[1], a }, Triangle3{ b, a, t[2] },
+    Triangle3{ a, b, c } };
+}
+
+/// Divisions that bring a triangle below the wanted area.
+int Divisions(double area, double wanted)
+{
+  int depth = 0;
+  while (area > wanted && depth < 12)
+  {
+    area *= 0.25;
+    ++depth;
+  }
+  return depth;
+}
+
+bool SameRow(const std::vector<double>& values, std::size_t a, std::size_t b, int bands)
+{
+  if (values.empty())
+  {
+    return true;
+  }
+  const auto n = static_cast<std::size_t>(bands);
+  return std::equal(values.begin() + static_cast<std::ptrdiff_t>(a * n),
+    values.begin() + static_cast<std::ptrdiff_t>((a + 1) * n),
+    values.begin() + static_cast<std::ptrdiff_t>(b * n));
+}
+
+} // namespace
+
+ElementSet::ElementSet(const Scene& scene, bool backFaces)
+{
+  this->CellCount = scene.Cells;
+  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
+  {
+    const auto cell = static_cast<std::size_t>(scene.TriangleCell[t]);
+    const bool back =
+      backFaces && cell < scene.Optics.TwoSided.size() && scene.Optics.TwoSided[cell];
+    this->Roots.push_back(scene.TriangleAt(t));
+    this->RootCell.push_back(scene.TriangleCell[t]);
+    this->Receives.push_back({ true, back });
+  }
+  this->Nodes.resize(this->Roots.size());
+  this->EmitAll();
+}
+
+void ElementSet::EmitAll()
+{
+  this->Patches.clear();
+  this->Areas.clear();
+  this->Depths.clear();
+  this->Parents.clear();
+  this->Leaves.clear();
+  for (std::size_t t = 0; t < this->Roots.size(); ++t)
+  {
+    const auto triangle = static_cast<std::int32_t>(t);
+    this->Emit(triangle, this->Roots[t], triangle, this->RootCell[t], 0, -1);
+  }
+}
+
+void ElementSet::Emit(std::int32_t node, const Triangle3& corners, std::int32_t triangle,
+  std::int32_t cell, int depth, std::int32_t parent)
+{
+  const std::int32_t first = this->Nodes[static_cast<std::size_t>(node)].Child;
+  if (first >= 0)
+  {
+    const auto children = Children(corners);
+    for (int k = 0; k < 4; ++k)
+    {
+      this->Emit(first + k, children[static_cast<std::size_t>(k)], triangle, cell, depth + 1, node);
+    }
+    return;
+  }
+  for (std::uint8_t side = 0; side < 2; ++side)
+  {
+    auto& element = this->Nodes[static_cast<std::size_t>(node)].Element[side];
+    element = -1;
+    if (!this->Receives[static_cast<std::size_t>(triangle)][side])
+    {
+      continue;
+    }
+    element = static_cast<std::int32_t>(this->Patches.size());
+    Patch patch;
+    patch.Corners = side == 0 ? corners : Triangle3{ corners[0], corners[2], corners[1] };
+    patch.Triangle = triangle;
+    patch.Cell = cell;
+    patch.Side = side;
+    this->Patches.push_back(patch);
+    this->Areas.push_back(Area(corners));
+    this->Depths.push_back(static_cast<std::uint8_t>(depth));
+    this->Parents.push_back(parent);
+    this->Leaves.push_back(node);
+  }
+}
+
+void ElementSet::DivideNode(std::int32_t node)
+{
+  this->Nodes[static_cast<std::size_t>(node)].Child = static_cast<std::int32_t>(this->Nodes.size());
+  this->Nodes.resize(this->Nodes.size() + 4);
+}
+
+ElementSet ElementSet::DividedToArea(double area) const
+{
+  ElementSet out = *this;
+  for (;;)
+  {
+    std::vector<std::uint8_t> marked(out.Size());
+    bool any = false;
+    for (std::size_t e = 0; e < out.Size(); ++e)
+    {
+      marked[e] = out.Areas[e] > area && out.Depths[e] < 12;
+      any = any || marked[e];
+    }
+    if (!any)
+    {
+      return out;
+    }
+    out = out.Divided(marked);
+  }
+}
+
+ElementSet ElementSet::Divided(const std::vector<std::uint8_t>& marked) const
+{
+  ElementSet out = *this;
+  std::int32_t last = -1;
+  for (std::size_t e = 0; e < this->Size(); ++e)
+  {
+    if (marked[e] && this->Leaves[e] != last)
+    {
+      last = this->Leaves[e];
+      if (out.Nodes[static_cast<std::size_t>(last)].Child < 0)
+      {
+        out.DivideNode(last);
+      }
+    }
+  }
+  out.EmitAll();
+  return out;
+}
+
+std::size_t ElementSet::CountAtArea(double area) const
+{
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < this->Size(); ++e)
+  {
+    count += std::size_t(1) << (2 * std::min(12, Divisions(this->Areas[e], area)));
+  }
+  return count;
+}
+
+std::int32_t ElementSet::Find(std::int32_t triangle, bool front, double u, double v) const
+{
+  if (triangle < 0 || static_cast<std::size_t>(triangle) >= this->Roots.size())
+  {
+    return -1;
+  }
+  auto node = static_cast<std::size_t>(triangle);
+  double w = 1.0 - u - v;
+  while (this->Nodes[node].Child >= 0)
+  {
+    std::size_t child = 3;
+    if (w > 0.5)
+    {
+      child = 0;
+      w = 2.0 * w - 1.0;
+      u *= 2.0;
+      v *= 2.0;
+    }
+    else if (u > 0.5)
+    {
+      child = 1;
+      w *= 2.0;
+      u = 2.0 * u - 1.0;
+      v *= 2.0;
+    }
+    else if (v > 0.5)
+    {
+      child = 2;
+      w *= 2.0;
+      u *= 2.0;
+      v = 2.0 * v - 1.0;
+    }
+    else
+    {
+      w = 1.0 - 2.0 * w;
+      u = 1.0 - 2.0 * u;
+      v = 1.0 - 2.0 * v;
+    }
+    node = static_cast<std::size_t>(this->Nodes[node].Child) + child;
+  }
+  return this->Nodes[node].Element[front ? 0 : 1];
+}
+
+std::vector<std::int32_t> ElementSet::Groups(const Scene& scene, std::size_t& count) const
+{
+  const std::size_t n = this->Size();
+  std::vector<std::int32_t> group(n, -1);
+  std::int32_t next = 0;
+
+  // Siblings.
+  std::unordered_map<std::int64_t, std::int32_t> ofParent;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    if (this->Parents[e] >= 0)
+    {
+      const std::int64_t key = 2 * std::int64_t(this->Parents[e]) + this->Patches[e].Side;
+      const auto found = ofParent.emplace(key, next);
+      next += found.second;
+      group[e] = found.first->second;
+    }
+  }
+
+  // Undivided triangles: grow over shared edges to four of a kind.
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> ofEdge;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    if (group[e] < 0)
+    {
+      const auto& t = scene.Triangles[static_cast<std::size_t>(this->Patches[e].Triangle)];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        ofEdge[std::minmax(t[k], t[(k + 1) % 3])].push_back(static_cast<std::int32_t>(e));
+      }
+    }
+  }
+  const Materials& optics = scene.Optics;
+  const auto alike = [&](std::size_t a, std::size_t b) {
+    const Patch& p = this->Patches[a];
+    const Patch& q = this->Patches[b];
+    const auto cp = static_cast<std::size_t>(p.Cell);
+    const auto cq = static_cast<std::size_t>(q.Cell);
+    const std::size_t side = p.Side;
+    return p.Side == q.Side &&
+      Dot(Normalized(AreaNormal2(p.Corners)), Normalized(AreaNormal2(q.Corners))) > 0.94 &&
+      SameRow(optics.DiffuseReflectance[side], cp, cq, optics.Bands) &&
+      SameRow(optics.EmittedExitance[side], cp, cq, optics.Bands);
+  };
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    if (group[e] >= 0)
+    {
+      continue;
+    }
+    std::vector<std::size_t> members{ e };
+    group[e] = next;
+    for (std::size_t m = 0; m < members.size() && members.size() < 4; ++m)
+    {
+      const auto& t = scene.Triangles[static_cast<std::size_t>(this->Patches[members[m]].Triangle)];
+      for (std::size_t k = 0; k < 3 && members.size() < 4; ++k)
+      {
+        for (const std::int32_t other : ofEdge[std::minmax(t[k], t[(k + 1) % 3])])
+        {
+          const auto o = static_cast<std::size_t>(other);
+          if (group[o] < 0 && alike(e, o) && members.size() < 4)
+          {
+            group[o] = next;
+            members.push_back(o);
+          }
+        }
+      }
+    }
+    ++next;
+  }
+  count = static_cast<std::size_t>(next);
+  return group;
+}
+
+std::vector<std::int32_t> ElementSet::CellGroups(std::size_t& count) const
+{
+  std::vector<std::int32_t> number(2 * this->CellCount, -1);
+  std::vector<std::int32_t> group(this->Size());
+  std::int32_t next = 0;
+  for (std::size_t e = 0; e < this->Size(); ++e)
+  {
+    auto& slot =
+      number[2 * static_cast<std::size_t>(this->Patches[e].Cell) + this->Patches[e].Side];
+    if (slot < 0)
+    {
+      slot = next++;
+    }
+    group[e] = slot;
+  }
+  count = static_cast<std::size_t>(next);
+  return group;
+}
+
+} // namespace radiometry

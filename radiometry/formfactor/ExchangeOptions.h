@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace radiometry
+{
+
+/// What the operators need to know of the wanted result.
+struct ExchangeOptions
+{
+  double RelativeTolerance = 0.01; // wanted of a row's irradiance
+  bool Occlusion = true;
+  std::size_t MemoryLimit = 0; // bytes; 0: none
+  int Threads = 0;             // 0: all
+  std::uint64_t Seed = 0;      // results of different seeds are independent
+};
+
+} // namespace radiometry

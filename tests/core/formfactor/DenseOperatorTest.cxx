@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/formfactor/DenseOperator.h"
+
+#include "radiometry/formfactor/GroupedOperator.h"
+#include "radiometry/scene/InputError.h"
+#include "tests/core/TestScenes.h"
+
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+
+using namespace radiometry;
+
+namespace
+{
+
+struct Built
+{
+  explicit Built(const test::Mesh& mesh, const ExchangeOptions& options = {}, double area = 1e300)
+    : Geometry(mesh.ToScene())
+    , Occluders(Geometry)
+    , Elements(ElementSet(Geometry, true).DividedToArea(area))
+    , F(Geometry, Occluders, Elements, options)
+  {
+  }
+  Scene Geometry;
+  OcclusionScene Occluders;
+  ElementSet Elements;
+  DenseOperator F;
+};
+
+double Defect(const DenseOperator& f)
+{
+  double worst = 0.0;
+  for (std::size_t i = 0; i < f.Size(); ++i)
+  {
+    worst = std::max(worst, std::abs(1.0 - f.RowSum(i)));
+  }
+  return worst;
+}
+
+} // namespace
+
+TEST(ElementSet, FindsTheElementOfAPoint)
+{
+  test::Mesh mesh;
+  mesh.AddGrid({ 0, 0, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, 1, 1);
+  Scene scene = mesh.ToScene();
+  scene.Optics.TwoSided[1] = 1;
+  ElementSet elements(scene, true);
+  EXPECT_EQ(elements.Size(), 3u);
+  EXPECT_EQ(elements.CountAtArea(0.1), 48u);
+  elements = elements.DividedToArea(0.1);
+  EXPECT_EQ(elements.Size(), 48u);
+  std::vector<std::uint8_t> marked(48, 0);
+  marked[5] = 1;
+  elements = elements.Divided(marked);
+  EXPECT_EQ(elements.Size(), 51u);
+  double area = 0.0;
+  for (std::size_t e = 0; e < elements.Size(); ++e)
+  {
+    const Patch& p = elements.GetPatches()[e];
+    area += elements.GetAreas()[e];
+    const Triangle3 t = scene.TriangleAt(static_cast<std::size_t>(p.Triangle));
+    EXPECT_GT(Dot(AreaNormal2(p.Corners), AreaNormal2(t)) * (p.Side ? -1.0 : 1.0), 0.0);
+    // Barycentric coordinates of a point of the element lead back to it.
+    const Vec3 c = 0.5 * p.Corners[0] + 0.3 * p.Corners[1] + 0.2 * p.Corners[2];
+    const double whole = LengthSquared(AreaNormal2(t));
+    const double u = Dot(Cross(c - t[0], t[2] - t[0]), AreaNormal2(t)) / whole;
+    const double v = Dot(Cross(t[1] - t[0], c - t[0]), AreaNormal2(t)) / whole;
+    EXPECT_EQ(elements.Find(p.Triangle, p.Side == 0, u, v), static_cast<std::int32_t>(e));
+  }
+  EXPECT_NEAR(area, 4.5, 1e-14);
+  EXPECT_EQ(elements.Find(0, false, 0.3, 0.3), -1);
+  EXPECT_EQ(elements.Find(-1, true, 0.3, 0.3), -1);
+  std::size_t groups = 0;
+  const auto group = elements.Groups(scene, groups);
+  EXPECT_EQ(groups, 13u); // twelve parents, one of which has a divided child
+  EXPECT_EQ(group.size(), 51u);
+}
+
+TEST(DenseOperator, ClosedCubeConservesToRounding)
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 4, 4, 4 }, 4, true);
+  ExchangeOptions options;
+  const Built cube(mesh, options);
+  const ClosureReport closure = cube.F.Closure();
+  EXPECT_EQ(closure.ClosedRows, cube.F.Size());
+  EXPECT_LT(closure.DefectBefore, 1e-3);
+  EXPECT_LT(closure.DefectAfter, 2e-15);
+  EXPECT_LT(closure.LargestChange, 2e-3);
+  // Opposite walls, by summing the exchange of their cells: 0.1998 of 16 m^2.
+  double opposite = 0.0, adjacent = 0.0;
+  for (std::size_t i = 0; i < 32; ++i)
+  {
+    for (std::size_t j = 32; j < 64; ++j)
+    {
+      opposite += cube.F.Exchange(i, j);
+    }
+    for (std::size_t j = 64; j < 96; ++j)
+    {
+      adjacent += cube.F.Exchange(i, j);
+    }
+  }
+  EXPECT_NEAR(opposite / 16.0, 0.199824895698387, 2e-5);
+  EXPECT_NEAR(adjacent / 16.0, 0.200043776075403, 2e-5);
+}
+
+TEST(DenseOperator, SphereInteriorIsUniform)
+{
+  // F_ij -> A_j/(4 pi R^2) as facets shrink; for facets more than a radius apart, weighted by
+  // their exchange.
+  const double pi = std::acos(-1.0);
+  double before = 0.0;
+  for (int bands : { 8, 16 })
+  {
+    test::Mesh mesh;
+    mesh.AddSphere({ 1, 2, 3 }, 2.0, bands, true);
+    const Built sphere(mesh);
+    EXPECT_LT(Defect(sphere.F), 2e-15);
+    const auto& a = sphere.F.Areas();
+    const auto& patches = sphere.Elements.GetPatches();
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      for (std::size_t j = 0; j < a.size(); ++j)
+      {
+        if (Length(Centroid(patches[i].Corners) - Centroid(patches[j].Corners)) > 2.0)
+        {
+          const double off = sphere.F.Exchange(i, j) / (a[i] * a[j] / (16.0 * pi)) - 1.0;
+          sum += a[i] * a[j];
+          squares += a[i] * a[j] * off * off;
+        }
+      }
+    }
+    const double rms = std::sqrt(squares / sum);
+    EXPECT_LT(rms, bands == 8 ? 0.1 : 0.6 * before);
+    before = rms;
+  }
+}
+
+TEST(DenseOperator, PlatesWithAPlateBetween)
+{
+  // An opaque plate between two plates: exactly nothing passes.
+  test::Mesh mesh;
+  mesh.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 2, 2);
+  mesh.AddGrid({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, 2, 2);
+  const Built open(mesh);
+  double through = 0.0;
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    for (std::size_t j = 8; j < 16; ++j)
+    {
+      through += open.F.Exchange(i, j);
+    }
+  }
+  EXPECT_NEAR(through, 0.199824895698387, 2e-5);
+  mesh.AddGrid({ -0.5, -0.5, 0.5 }, { 2, 0, 0 }, { 0, 2, 0 }, 1, 1);
+  const Built blocked(mesh);
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    for (std::size_t j = 8; j < 16; ++j)
+    {
+      EXPECT_EQ(blocked.F.Exchange(i, j), 0.0);
+    }
+  }
+}
+
+TEST(DenseOperator, PartlyBlockedWithinItsError)
+{
+  // Unit plates 1 apart, a screen at half height over half the width. By symmetry (a ray and its
+  // mirror image) the exact factor needs no trick: fine strips give the reference.
+  test::Mesh coarse, fine;
+  for (auto* mesh : { &coarse, &fine })
+  {
+    const int n = mesh == &fine ? 10 : 2;
+    mesh->AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, n, n);
+    mesh->AddGrid({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, n, n);
+    mesh->AddGrid({ -2, -2, 0.5 }, { 2.5, 0, 0 }, { 0, 5, 0 }, 1, 1);
+  }
+  const auto through = [](const Built& b, std::size_t n) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      for (std::size_t j = n; j < 2 * n; ++j)
+      {
+        sum += b.F.Exchange(i, j);
+      }
+    }
+    return sum;
+  };
+  ExchangeOptions options;
+  options.RelativeTolerance = 1e-3;
+  const double reference = through(Built(fine, options), 200);
+  options.RelativeTolerance = 0.01;
+  int inside = 0;
+  double squares = 0.0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+  {
+    options.Seed = seed;
+    const Built b(coarse, options);
+    std::vector<double> source(b.F.Size(), 0.0), error(source), geometry(source), E(source);
+    for (std::size_t j = 8; j < 16; ++j)
+    {
+      source[j] = 1.0;
+    }
+    b.F.ApplyError(source.data(), geometry.data(), error.data(), 1);
+    double variance = 0.0;
+    for (std::size_t i = 0; i < 8; ++i)
+    {
+      variance += std::pow(error[i] * b.F.Areas()[i], 2);
+    }
+    const double off = through(b, 8) - reference;
+    inside += std::abs(off) <= 2.0 * std::sqrt(variance) + 1e-4;
+    squares += off * off / (variance + 1e-12);
+  }
+  EXPECT_GE(inside, 18);
+  EXPECT_LT(squares / 20.0, 3.0);  // not too bold
+  EXPECT_GT(squares / 20.0, 0.02); // nor too timid
+}
+
+TEST(DenseOperator, SameBytesForAnyNumberOfThreads)
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 3, true);
+  mesh.AddBox({ 0.3, 0.3, 0.0 }, { 0.6, 0.7, 0.5 }, 1, false);
+  std::vector<double> first;
+  for (int threads : { 1, 2, 7 })
+  {
+    ExchangeOptions options;
+    options.Threads = threads;
+    const Built b(mesh, options);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < b.F.Size(); ++i)
+    {
+      values.push_back(b.F.RowSum(i));
+      for (std::size_t j = 0; j < b.F.Size(); ++j)
+      {
+        values.push_back(b.F.Exchange(i, j));
+      }
+    }
+    std::vector<double> in(
+      values.begin(), values.begin() + static_cast<std::ptrdiff_t>(b.F.Size()));
+    std::vector<double> out(in.size());
+    b.F.Apply(in.data(), out.data(), 1);
+    values.insert(values.end(), out.begin(), out.end());
+    if (first.empty())
+    {
+      first = values;
+    }
+    EXPECT_EQ(std::memcmp(first.data(), values.data(), values.size() * sizeof(double)), 0)
+      << threads;
+  }
+}
+
+TEST(DenseOperator, RowsNeverExceedOne)
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 1, 2, 1 }, 2, true);
+  mesh.AddBox({ 0.3, 0.3, 0.0 }, { 0.6, 0.7, 0.5 }, 2, false);
+  mesh.AddGrid({ 0.1, 1.2, 0.1 }, { 0.5, 0, 0 }, { 0, 0, 0.9 }, 2, 2);
+  const Built b(mesh);
+  for (std::size_t i = 0; i < b.F.Size(); ++i)
+  {
+    EXPECT_LE(b.F.RowSum(i), 1.0 + 1e-12) << i;
+    EXPECT_GE(b.F.RowSum(i), 0.0);
+  }
+}
+
+TEST(DenseOperator, MemoryLimitSaysWhatWouldDo)
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 12, true);
+  ExchangeOptions options;
+  options.MemoryLimit = 1 << 20;
+  try
+  {
+    const Built b(mesh, options);
+    FAIL() << "no error";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_EQ(error.Array, "MemoryLimit");
+    const double least = std::stod(error.Expected.substr(error.Expected.find("least") + 6));
+    EXPECT_GT(least, 5.0);
+    EXPECT_LT(least, 40.0);
+    options.MemoryLimit = static_cast<std::size_t>(least * 1024 * 1024);
+    const Built enough(mesh, options);
+    EXPECT_LE(enough.F.MemoryBytes(), options.MemoryLimit);
+    EXPECT_LT(Defect(enough.F), 1e-14); // single precision conserves all the same
+  }
+}
+
+TEST(GroupedOperator, IsTheGalerkinProjection)
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 2, true);
+  const Built b(mesh);
+  std::vector<std::int32_t> wall(b.F.Size());
+  for (std::size_t i = 0; i < wall.size(); ++i)
+  {
+    wall[i] = static_cast<std::int32_t>(i / 8);
+  }
+  const GroupedOperator walls(b.F, wall, 6);
+  EXPECT_EQ(walls.Size(), 6u);
+  const std::vector<double> source{ 1, 0, 0, 0, 0, 0 };
+  std::vector<double> out(6);
+  walls.Apply(source.data(), out.data(), 1);
+  EXPECT_EQ(out[0], 0.0);
+  EXPECT_NEAR(out[1], 0.199824895698387, 1e-4);
+  EXPECT_NEAR(out[2], 0.200043776075403, 1e-4);
+  EXPECT_NEAR(walls.RowSum(3), 1.0, 1e-14);
+}
