@@ -198,7 +198,7 @@ TEST(EmitterIrradiance, SmallLampOverAFloorWithAndWithoutAScreen)
         const double u = (i + 1.0 / 3.0) / grid, v = (j + 1.0 / 3.0) / grid;
         const Vec3 x =
           p.Corners[0] + u * (p.Corners[1] - p.Corners[0]) + v * (p.Corners[2] - p.Corners[0]);
-        points.push_back({ x, { 0, 0, 1 }, p.Triangle });
+        points.push_back({ x, { 0, 0, 1 }, p.Triangle, {} });
       }
     }
   }
