@@ -83,6 +83,15 @@ class Camera:
             camera.SetViewAngle(math.degrees(2.0 * math.atan(half)))
         renderer.ResetCameraClippingRange()
 
+    def corner(self, aspect, x, y, share):
+        """The place at (x, y) of the picture, each from -1 to 1, as deep as the focal point; and
+        the length of `share` of the picture's height there."""
+        right, above, forward = self.axes()
+        depth = self.distance_to(self.focal_point)
+        half = self._half_height(aspect) * (1.0 if self.parallel_height else depth)
+        place = self.position + depth * forward + half * (x * aspect * right + y * above)
+        return place, 2.0 * half * share
+
     def rays(self, width, height):
         """Origins and directions (height, width, 3), row 0 at the bottom, through pixel centres.
 

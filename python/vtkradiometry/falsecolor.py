@@ -194,11 +194,14 @@ def write(path, field, scale, heading, notes, lights, camera, size, culling=Fals
     if inner:
         facing = _facing(field, camera) if culling else field
         main.AddActor(_line_actor(_iso_lines(facing, inner), (1.0, 1.0, 1.0), 1.1 * OVERSAMPLING))
-    main.AddActor(_line_actor(_creases(field), INK, 1.0 * OVERSAMPLING))
+    creases = _line_actor(_creases(field), INK, 0.9 * OVERSAMPLING)
+    creases.GetProperty().SetOpacity(0.7)
+    main.AddActor(creases)
 
-    camera.apply(main, aspect=pixels[0] * (1.0 - LEGEND_SHARE) / pixels[1])
+    aspect = pixels[0] * (1.0 - LEGEND_SHARE) / pixels[1]
+    camera.apply(main, aspect)
     above.SetActiveCamera(main.GetActiveCamera())
-    legend = glyphs.add(above, lights, field.GetBounds(), camera)
+    legend = glyphs.add(above, lights, field.GetBounds(), camera, aspect)
     main.ResetCameraClippingRange()
 
     width, height = pixels[0] * LEGEND_SHARE, pixels[1]

@@ -64,13 +64,15 @@ def _column(lights, name, fallback):
     return vtk_to_numpy(array)
 
 
-def add(renderer, lights, bounds, camera):
-    """Adds a glyph for each enabled light and returns the legend: [(kind, words)]."""
+def add(renderer, lights, bounds, camera, aspect):
+    """Adds a glyph for each enabled light and returns the legend: [(kind, words)].
+
+    aspect: width/height of the picture, to place what has no place of its own.
+    """
     if lights is None or lights.GetNumberOfPoints() == 0:
         return []
     low, high = np.array(bounds[0::2]), np.array(bounds[1::2])
     size = float(np.linalg.norm(high - low))
-    centre = 0.5 * (low + high)
     kinds = _column(lights, "LightType", POINT)
     enabled = _column(lights, "LightEnabled", 1)
     directions = _column(lights, "Direction", (0.0, 0.0, -1.0))
@@ -84,8 +86,9 @@ def add(renderer, lights, bounds, camera):
         length = np.linalg.norm(direction)
         direction = direction / length if length > 0.0 else np.array([0.0, 0.0, -1.0])
         transform = _along(direction if kind != POINT else (1.0, 0.0, 0.0))
-        if kind == DIRECTIONAL:  # has no place: an arrow that ends in the middle of the scene
-            scale, place = 0.30 * size, centre - 0.30 * size * direction
+        if kind == DIRECTIONAL:  # has no place: an arrow in the upper left of the picture
+            middle, scale = camera.corner(aspect, -0.84 + 0.2 * (counts[kind] - 1), 0.78, 0.14)
+            place = middle - 0.5 * scale * direction
         else:
             place = np.array(lights.GetPoint(index))
             scale = 0.05 * min(size, camera.distance_to(place))

@@ -6,11 +6,11 @@ import numpy as np
 
 
 def nice_step(span, wanted):
-    """1, 2 or 5 times a power of ten, giving about `wanted` steps in `span`."""
+    """1, 2 or 5 times a power of ten, giving about `wanted` steps in `span` (at most a third more)."""
     raw = span / max(wanted, 1)
     power = 10.0 ** math.floor(math.log10(raw))
     for factor in (1.0, 2.0, 5.0, 10.0):
-        if raw <= factor * power * 1.0000001:
+        if 0.75 * raw <= factor * power:
             return factor * power
     return 10.0 * power
 
@@ -40,7 +40,7 @@ class Scale:
     def logarithmic(cls, low, high):
         """Ends and levels at 1, 2, 5 times powers of ten; at powers of ten over many decades."""
         decades = math.log10(high / low)
-        factors = (1.0, 2.0, 5.0) if decades <= 3.2 else (1.0,)
+        factors = (1.0, 2.0, 5.0) if decades <= 4.3 else (1.0,)
         candidates = [round_significant(f * 10.0**p)
                       for p in range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 2)
                       for f in factors]
