@@ -54,7 +54,7 @@ def main(arguments=None):
 def _run(options, progress):
     from . import scene as scenes
     from .compute import run
-    from .vtkRadiometryFilters import vtkIrradianceFilter, vtkRadiosityFilter
+    from .vtkRadiometryFilters import vtkIrradianceFilter
 
     begin = time.monotonic()
     path = scenes.find(options.scene)
@@ -62,6 +62,8 @@ def _run(options, progress):
     results = [run(vtkIrradianceFilter(), "Irradiance", scene.surface, scene.lights, options,
                    progress)]
     if options.radiosity:
+        from .vtkRadiometryFilters import vtkRadiosityFilter
+
         results.append(run(vtkRadiosityFilter(), "Radiosity", scene.surface, scene.lights, options,
                            progress))
     display.ensure()
