@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataNormals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -76,6 +77,7 @@ void SurfacePoints::AddSensors(
 {
   namespace names = radiometry::names;
   vtkDataArray* normals = data->GetPointData()->GetArray(names::Normals);
+  const bool single = data->GetPoints()->GetDataType() == VTK_FLOAT;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     double p[3];
@@ -93,7 +95,11 @@ void SurfacePoints::AddSensors(
       throw radiometry::InputError(
         names::Normals, i, normal.x, "a finite direction of a sensor, not zero");
     }
-    this->All.push_back({ metersPerUnit * point - scene.Origin, Normalized(normal), -1, {} });
+    const double rounding = single
+      ? 1.2e-7 * metersPerUnit * std::max({ std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2]) })
+      : 0.0;
+    this->All.push_back(
+      { metersPerUnit * point - scene.Origin, Normalized(normal), -1, {}, rounding });
   }
 }
 

@@ -92,7 +92,7 @@ Convexity FindConvexity(const Scene& scene)
 }
 
 EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,
-  const EffectAbilities& abilities)
+  const EffectAbilities& abilities, bool freePoints)
   : Decisions(EffectCount)
 {
   const Materials& optics = scene.Optics;
@@ -138,11 +138,11 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
   const double specular = Greatest(optics.SpecularReflectance);
   const double transmitted = Greatest(optics.Transmittance);
 
-  const bool shadowless = !twoSided &&
+  const bool shadowless = !twoSided && !(freePoints && !scene.Triangles.empty()) &&
     (convexity == Convexity::Body || (convexity == Convexity::Room && LightsInside(scene)));
-  decide(Effect::Occlusion, (any || emitted > 0.0) && !shadowless, true,
-    !any && emitted <= 0.0
-      ? "no light is on"
+  decide(Effect::Occlusion, (any || emitted > 0.0) && !shadowless && !scene.Triangles.empty(), true,
+    scene.Triangles.empty() || (!any && emitted <= 0.0)
+      ? (scene.Triangles.empty() ? "there is no surface" : "no light is on")
       : (convexity == Convexity::Body ? "the surface is a convex body: no face hides a light from another"
                                       : "a convex room with its lights inside: nothing stands between"),
     "surfaces may stand between a light and a cell");

@@ -63,8 +63,9 @@ struct EffectAbilities
 class EffectPlan
 {
 public:
+  /// `freePoints`: values are wanted off the surface too, where even a convex body hides lights.
   EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,
-    const EffectAbilities& abilities);
+    const EffectAbilities& abilities, bool freePoints = false);
 
   const EffectDecision& operator[](Effect effect) const
   {

@@ -199,9 +199,8 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
       open[i] |= flux.Exact || flux.Error <= allowed ? 0 : 1;
       for (int b = 0; b < bands; ++b)
       {
-        const double watts = light.Intensity[b] / area;
-        value[b] += watts * flux.Value;
-        error[b] += watts * (flux.Error + rounding * flux.Value);
+        value[b] += light.Intensity[b] * (flux.Value / area);
+        error[b] += light.Intensity[b] * ((flux.Error + rounding * flux.Value) / area);
       }
     }
   };
@@ -264,8 +263,12 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
     points.size(), options.Threads, stage,
     [&](std::size_t i) {
       const SurfacePoint& p = points[i];
-      const RayEnd from{ p.Point, p.Triangle,
-        p.Triangle < 0 && options.Occlusion && occluders.TooClose(p.Point) };
+      RayEnd from{ p.Point, p.Triangle };
+      if (p.Triangle < 0 && options.Occlusion)
+      {
+        from.Triangle = occluders.Touching(from.Point, p.Normal, p.Rounding);
+        from.Close = from.Triangle < 0 && occluders.TooClose(from.Point);
+      }
       for (std::size_t k = 0; k < lights.Size(); ++k)
       {
         const Light& light = lights.Sources[k]->GetLight();

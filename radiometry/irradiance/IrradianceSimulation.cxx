@@ -106,7 +106,9 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
 {
   IrradianceResult result;
   Report(monitor, 0.0, "planning");
-  EffectPlan plan(scene, options.Switches, EffectAbilities{});
+  const bool freePoints = std::any_of(
+    points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
+  EffectPlan plan(scene, options.Switches, EffectAbilities{}, freePoints);
   const OcclusionScene occluders(scene);
 
   DirectOptions direct;

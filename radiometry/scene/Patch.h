@@ -29,6 +29,8 @@ struct SurfacePoint
   /// neighbour at once, walls of a corner included), and the answers are averaged. Empty: ask at
   /// the point itself.
   std::vector<std::int32_t> Around;
+  /// How far rounding of its coordinates may have moved a free sensor off a surface it lies on, m.
+  double Rounding = 0.0;
 };
 
 } // namespace radiometry

@@ -149,12 +149,12 @@ void Filter(const RTCFilterFunctionNArguments* args)
   }
 }
 
-/// True when `p` is within Closeness of the box.
-bool Near(const Box3& box, const Vec3& p)
+/// True when `p` is within `distance` of the box.
+bool Near(const Box3& box, const Vec3& p, double distance)
 {
   for (int a = 0; a < 3; ++a)
   {
-    if (p[a] < box.Min[a] - Closeness || p[a] > box.Max[a] + Closeness)
+    if (p[a] < box.Min[a] - distance || p[a] > box.Max[a] + distance)
     {
       return false;
     }
@@ -540,19 +540,20 @@ bool OcclusionScene::TooClose(const Vec3& point) const
 {
   const Vec3 p = this->Impl->ToBox(point);
   return !this->Impl->Tree.Visit(
-    [&](const Box3& box) { return Near(box, p); },
+    [&](const Box3& box) { return Near(box, p, Closeness); },
     [&](std::int32_t t) {
       const Triangle3& v = this->Impl->Triangles[t];
       return std::fabs(Dot(Normalized(AreaNormal2(v)), p - v[0])) > Closeness;
     });
 }
 
-std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal) const
+std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal, double rounding) const
 {
+  const double reach = std::max(1e-12, this->Impl->Scale * rounding);
   const Vec3 p = this->Impl->ToBox(point);
   std::int32_t found = -1;
-  double nearest = Closeness;
-  this->Impl->Tree.Visit([&](const Box3& box) { return Near(box, p); },
+  double nearest = reach;
+  this->Impl->Tree.Visit([&](const Box3& box) { return Near(box, p, reach); },
     [&](std::int32_t t) {
       const Triangle3& v = this->Impl->Triangles[t];
       const Vec3 n = Normalized(AreaNormal2(v));
@@ -561,9 +562,9 @@ std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal) const
       for (int k = 0; k < 3 && inside; ++k)
       {
         const Vec3 edge = Normalized(v[(k + 1) % 3] - v[k]);
-        inside = Dot(n, Cross(edge, p - v[k])) > -Closeness;
+        inside = Dot(n, Cross(edge, p - v[k])) > -reach;
       }
-      if (inside && (h < nearest || (h == nearest && t < found)))
+      if (inside && (h < nearest || (h == nearest && (found < 0 || t < found))))
       {
         nearest = h;
         found = t;

@@ -51,10 +51,10 @@ public:
   /// True when a free point (a light, a sensor) lies so near a triangle that its rays must be
   /// decided in double: what RayEnd::Close should be.
   bool TooClose(const Vec3& point) const;
-  /// The triangle that a free point lies on, within the rounding of single-precision coordinates
-  /// (5e-7 of the scene's size), and whose plane is square to `normal` within 30 degrees; -1: none.
-  /// `point` is then moved onto its plane.
-  std::int32_t Touching(Vec3& point, const Vec3& normal) const;
+  /// The triangle that a free point lies on, within `rounding` (m, and at least 1e-12 of the scene's
+  /// size), and whose plane is square to `normal` within 30 degrees; -1: none. `point` is then moved
+  /// onto its plane.
+  std::int32_t Touching(Vec3& point, const Vec3& normal, double rounding) const;
   /// The first triangle along a ray.
   SurfaceHit Closest(const RayEnd& from, const Vec3& direction) const;
 

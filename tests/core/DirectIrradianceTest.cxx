@@ -85,7 +85,7 @@ TEST(DirectIrradiance, TenThousandLumenThreeMetresAbove)
   std::vector<SurfacePoint> points;
   for (int r = 0; r < 6; ++r)
   {
-    points.push_back({ Vec3{ static_cast<double>(r), 0, 0 } - scene.Origin, { 0, 0, 1 }, -1, {} });
+    points.push_back({ Vec3{ static_cast<double>(r), 0, 0 } - scene.Origin, { 0, 0, 1 }, -1, {}, 0.0 });
   }
   const DirectResult result = ComputeDirectIrradiance(scene, OcclusionScene(scene), points, {});
   for (int r = 0; r < 6; ++r)
