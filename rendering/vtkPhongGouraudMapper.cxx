@@ -1,3 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPhongGouraudMapper.h"
+
+#include "vtkPhongGouraudHelper.h"
+
+#include "vtkInformationObjectBaseKey.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
 vtkStandardNewMacro(vtkPhongGouraudMapper);
+vtkInformationKeyRestrictedMacro(vtkPhongGouraudMapper, LIGHT_DATA, ObjectBase, "vtkPolyData");
+
+vtkPhongGouraudMapper::vtkPhongGouraudMapper() = default;
+vtkPhongGouraudMapper::~vtkPhongGouraudMapper() = default;
+
+vtkCompositeMapperHelper2* vtkPhongGouraudMapper::CreateHelper()
+{
+  return vtkPhongGouraudHelper::New();
+}
+
+void vtkPhongGouraudMapper::SetShading(int shading)
+{
+  shading = std::clamp<int>(shading, FLAT, AUTO);
+  if (this->Shading != shading)
+  {
+    this->Shading = shading;
+    this->BufferTime.Modified();
+    this->Modified();
+  }
+}
+
+void vtkPhongGouraudMapper::SetFieldMode(int mode)
+{
+  mode = std::clamp<int>(mode, FIELD_OFF, FIELD_REFLECTANCE);
+  if (this->FieldMode != mode)
+  {
+    this->FieldMode = mode;
+    this->BufferTime.Modified();
+    this->Modified();
+  }
+}
+
+void vtkPhongGouraudMapper::SetFieldArrayName(const char* name)
+{
+  const std::string text = name ? name : "";
+  if (this->FieldArrayName != text)
+  {
+    this->FieldArrayName = text;
+    this->BufferTime.Modified();
+    this->Modified();
+  }
+}
+
+void vtkPhongGouraudMapper::SetFieldAssociation(int association)
+{
+  association = std::clamp(association, -1, 1);
+  if (this->FieldAssociation != association)
+  {
+    this->FieldAssociation = association;
+    this->BufferTime.Modified();
+    this->Modified();
+  }
+}
+
+void vtkPhongGouraudMapper::SetLightData(vtkPolyData* lights)
+{
+  if (this->LightData != lights)
+  {
+    this->LightData = lights;
+    this->Modified();
+  }
+}
+
+vtkPolyData* vtkPhongGouraudMapper::GetLightData()
+{
+  return this->LightData;
+}
+
+void vtkPhongGouraudMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const char* shadings[] = { "Flat", "Gouraud", "Phong", "Auto" };
+  const char* models[] = { "BlinnPhong", "Phong", "Physical" };
+  const char* modes[] = { "Off", "On", "Normals", "Reflectance" };
+  os << indent << "Shading: " << shadings[this->Shading] << " (last frame "
+     << shadings[this->ShadingUsed] << ")\n";
+  os << indent << "ReflectionModel: " << models[this->ReflectionModel] << "\n";
+  os << indent << "LocalViewer: " << this->LocalViewer << "\n";
+  os << indent << "TwoSided: " << this->TwoSided << "\n";
+  os << indent << "LightScale: " << this->LightScale << "\n";
+  os << indent << "MetersPerUnit: " << this->MetersPerUnit << "\n";
+  os << indent << "FieldMode: " << modes[this->FieldMode] << "\n";
+  os << indent << "FieldArrayName: " << this->FieldArrayName << "\n";
+  os << indent << "FieldAssociation: " << this->FieldAssociation << "\n";
+  os << indent << "FieldScale: " << this->FieldScale << "\n";
+  os << indent << "LightData: " << this->LightData.Get() << "\n";
+  os << indent << "ShaderFeatures: " << this->ShaderFeatureText << "\n";
+}

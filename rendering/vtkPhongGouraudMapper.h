@@ -1,14 +1,263 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPhongGouraudMapper
+ * @brief   draws polygons with the project's lighting model, in scene-linear light
+ *
+ *   Reads   vtkPolyData, or a tree of composite data of them; point Normals for smooth shading;
+ *           a float array of any name and number of bands in field mode (point or cell data)
+ *   Lights  the arrays of docs/arrays.md, from, in this order: SetLightData(); the polydata under
+ *           LIGHT_DATA() in the renderer's Information; the renderer's vtkLights
+ *   Writes  scene-linear RGB without clamping (a float frame buffer keeps it: vtkLinearFloatPass)
+ *   Model   radiometry/shading/LightingModel.h; the material is the actor's vtkProperty (and its
+ *           back-face property), scalar colours and block colours as usual
+ *   Cost    Flat and Phong O(pixels x lights), Gouraud O(vertices x lights); the generated shader
+ *           holds only what the lights and the material need
+ *   Fails   a light that cannot be drawn is left out and named by an error event, once; area and
+ *           environment lights are not drawn by this mapper (GetNumberOfLightsNotDrawn)
+ *
+ * Points, lines, edges, vertices and selection are drawn by VTK as always.
+ */
 #ifndef vtkPhongGouraudMapper_h
 #define vtkPhongGouraudMapper_h
+
 #include "vtkCompositePolyDataMapper2.h"
-#include "vtkRadiometryRenderingModule.h"
+#include "vtkRadiometryRenderingModule.h" // for export macro
+#include "vtkSmartPointer.h"              // for ivars
+
+#include <string> // for ivars
+
+class vtkInformationObjectBaseKey;
+class vtkPolyData;
+
 class VTKRADIOMETRYRENDERING_EXPORT vtkPhongGouraudMapper : public vtkCompositePolyDataMapper2
 {
 public:
   static vtkPhongGouraudMapper* New();
   vtkTypeMacro(vtkPhongGouraudMapper, vtkCompositePolyDataMapper2);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum ShadingType
+  {
+    FLAT = 0,
+    GOURAUD = 1,
+    PHONG = 2,
+    AUTO = 3
+  };
+  enum ReflectionModelType
+  {
+    BLINN_PHONG = 0,
+    REFLECTED_PHONG = 1,
+    PHYSICAL = 2
+  };
+  enum FieldModeType
+  {
+    FIELD_OFF = 0,
+    FIELD_ON = 1,
+    FIELD_NORMALS = 2,
+    FIELD_REFLECTANCE = 3
+  };
+
+  ///@{
+  /**
+   * Where the lighting model is evaluated.
+   * Flat: once a cell, at its centre with its own normal, one colour for the whole cell.
+   * Gouraud: at each vertex with the point's normal; the light is interpolated, then multiplied by
+   * the material. Phong: at each pixel with the interpolated normal.
+   * Auto (default): Gouraud for the whole piece where the picture cannot differ from Phong because
+   * nothing of it varies within a cell, else Phong; GetShadingUsed() tells. Without point normals
+   * Gouraud and Phong use the cell's normal at each pixel.
+   */
+  void SetShading(int shading);
+  vtkGetMacro(Shading, int);
+  void SetShadingToFlat() { this->SetShading(FLAT); }
+  void SetShadingToGouraud() { this->SetShading(GOURAUD); }
+  void SetShadingToPhong() { this->SetShading(PHONG); }
+  void SetShadingToAuto() { this->SetShading(AUTO); }
+  ///@}
+
+  /**
+   * FLAT, GOURAUD or PHONG: what the last frame was drawn with.
+   */
+  vtkGetMacro(ShadingUsed, int);
+
+  ///@{
+  /**
+   * How light becomes colour. Physical (default): the radiance of a Lambertian surface with an
+   * energy-conserving Phong lobe, rho/pi E + rho_s (n+2)/(2 pi) cos^n E.
+   * BlinnPhong and Phong: the legacy fixed-function models, highlights by N.H and by R.V.
+   */
+  vtkSetClampMacro(ReflectionModel, int, BLINN_PHONG, PHYSICAL);
+  vtkGetMacro(ReflectionModel, int);
+  void SetReflectionModelToBlinnPhong() { this->SetReflectionModel(BLINN_PHONG); }
+  void SetReflectionModelToPhong() { this->SetReflectionModel(REFLECTED_PHONG); }
+  void SetReflectionModelToPhysical() { this->SetReflectionModel(PHYSICAL); }
+  ///@}
+
+  ///@{
+  /**
+   * Ambient light of the scene, radiance, scene-linear RGB; the material's Ambient (0 by default)
+   * multiplies it. Default (1, 1, 1), as in VTK. Any finite value.
+   */
+  vtkSetVector3Macro(GlobalAmbient, double);
+  vtkGetVector3Macro(GlobalAmbient, double);
+  ///@}
+
+  ///@{
+  /**
+   * On (default): highlights use the direction to the eye from each place (to the viewer's side in a
+   * parallel projection, where all directions agree). Off: the viewer is infinitely far along the
+   * view's axis, as the fixed-function pipeline does by default.
+   */
+  vtkSetMacro(LocalViewer, bool);
+  vtkGetMacro(LocalViewer, bool);
+  vtkBooleanMacro(LocalViewer, bool);
+  ///@}
+
+  ///@{
+  /**
+   * On (default): a side seen from behind is lit about its reversed normal, with the actor's
+   * back-face property where it has one. Off: both sides show the light of the front. An actor
+   * with a back-face property is always two-sided.
+   */
+  vtkSetMacro(TwoSided, bool);
+  vtkGetMacro(TwoSided, bool);
+  vtkBooleanMacro(TwoSided, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Radiance that the front (the back) gives of its own, scene-linear RGB. Default (0, 0, 0).
+   */
+  vtkSetVector3Macro(Emission, double);
+  vtkGetVector3Macro(Emission, double);
+  vtkSetVector3Macro(BackEmission, double);
+  vtkGetVector3Macro(BackEmission, double);
+  ///@}
+
+  ///@{
+  /**
+   * The lights, one vertex a light. Null (default): those that the renderer's Information holds
+   * under LIGHT_DATA(), else the renderer's own vtkLights. Changing the polydata's contents moves
+   * the lights at the next render and rebuilds nothing.
+   */
+  virtual void SetLightData(vtkPolyData* lights);
+  vtkPolyData* GetLightData();
+  static vtkInformationObjectBaseKey* LIGHT_DATA();
+  ///@}
+
+  ///@{
+  /**
+   * Multiplies all lights: the exposure of a picture that is shown without a display transform.
+   * Default 1; at least 0.
+   */
+  vtkSetClampMacro(LightScale, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(LightScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * Metres for each unit of the coordinates, for the fall-off of lights. Default 1; above 0.
+   */
+  vtkSetClampMacro(MetersPerUnit, double, 1e-300, VTK_DOUBLE_MAX);
+  vtkGetMacro(MetersPerUnit, double);
+  ///@}
+
+  ///@{
+  /**
+   * Off (default): the surface is lit by the lights. On: the array FieldArrayName times FieldScale
+   * is the colour, scene-linear and without clamping: one band grey, three RGB, any other number
+   * the grey of its mean. Point data is interpolated, cell data is constant over a cell; a block
+   * without the array is black. Reflectance: the array is the diffuse reflectance that the lights
+   * light. Normals: the unit normal of the shaded side, in world coordinates, as RGB in [-1, 1].
+   */
+  void SetFieldMode(int mode);
+  vtkGetMacro(FieldMode, int);
+  void SetFieldModeToOff() { this->SetFieldMode(FIELD_OFF); }
+  void SetFieldModeToOn() { this->SetFieldMode(FIELD_ON); }
+  void SetFieldModeToNormals() { this->SetFieldMode(FIELD_NORMALS); }
+  void SetFieldModeToReflectance() { this->SetFieldMode(FIELD_REFLECTANCE); }
+  void SetFieldArrayName(const char* name);
+  const char* GetFieldArrayName() { return this->FieldArrayName.c_str(); }
+  ///@}
+
+  ///@{
+  /**
+   * Where the field is: -1 (default) in the point data or else in the cell data, 0 point data,
+   * 1 cell data.
+   */
+  void SetFieldAssociation(int association);
+  vtkGetMacro(FieldAssociation, int);
+  ///@}
+
+  ///@{
+  /**
+   * Multiplies the field. Default 1; any finite value. 1/pi shows a diffuse radiosity as radiance.
+   */
+  vtkSetMacro(FieldScale, double);
+  vtkGetMacro(FieldScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * The text of the shaders that the last frame's polygons were drawn with (empty before the
+   * first), and the features that it was generated for, in alphabetical order, separated by
+   * spaces. For tests and for the curious.
+   */
+  const char* GetVertexShaderText() { return this->VertexShaderText.c_str(); }
+  const char* GetFragmentShaderText() { return this->FragmentShaderText.c_str(); }
+  const char* GetShaderFeatures() { return this->ShaderFeatureText.c_str(); }
+  ///@}
+
+  /**
+   * How often shaders were generated since the mapper was made.
+   */
+  vtkGetMacro(NumberOfShaderBuilds, int);
+
+  ///@{
+  /**
+   * Lights in the last frame: those drawn, and enabled ones that this mapper has no formula for
+   * (area, environment).
+   */
+  vtkGetMacro(NumberOfLightsDrawn, int);
+  vtkGetMacro(NumberOfLightsNotDrawn, int);
+  ///@}
+
 protected:
-  vtkPhongGouraudMapper() = default;
+  vtkPhongGouraudMapper();
+  ~vtkPhongGouraudMapper() override;
+
+  vtkCompositeMapperHelper2* CreateHelper() override;
+
+  friend class vtkPhongGouraudHelper;
+
+  int Shading = AUTO;
+  int ShadingUsed = PHONG;
+  int ReflectionModel = PHYSICAL;
+  double GlobalAmbient[3] = { 1.0, 1.0, 1.0 };
+  bool LocalViewer = true;
+  bool TwoSided = true;
+  double Emission[3] = { 0.0, 0.0, 0.0 };
+  double BackEmission[3] = { 0.0, 0.0, 0.0 };
+  double LightScale = 1.0;
+  double MetersPerUnit = 1.0;
+  int FieldMode = FIELD_OFF;
+  std::string FieldArrayName;
+  int FieldAssociation = -1;
+  double FieldScale = 1.0;
+  vtkSmartPointer<vtkPolyData> LightData;
+
+  vtkTimeStamp BufferTime;     // of the last change that needs other buffers
+  std::string ReportedProblem; // the defect in the lights that was reported last
+  std::string VertexShaderText;
+  std::string FragmentShaderText;
+  std::string ShaderFeatureText;
+  int NumberOfShaderBuilds = 0;
+  int NumberOfLightsDrawn = 0;
+  int NumberOfLightsNotDrawn = 0;
+
+private:
+  vtkPhongGouraudMapper(const vtkPhongGouraudMapper&) = delete;
+  void operator=(const vtkPhongGouraudMapper&) = delete;
 };
+
 #endif

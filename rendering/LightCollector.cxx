@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LightCollector.h"
+
+#include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/Light.h"
+
+#include "vtkDataArray.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace vtkradiometry
+{
+namespace
+{
+
+using radiometry::DisplayLight;
+using radiometry::Rgb;
+using radiometry::Vec3;
+
+/// One array of the lights, with the value that stands where it is absent.
+class LightArray
+{
+public:
+  LightArray(vtkPolyData* data, const char* name)
+    : Name(name)
+    , Array(data->GetPointData()->GetArray(name))
+  {
+  }
+  explicit operator bool() const { return this->Array != nullptr; }
+  double Value(vtkIdType i, double absent, int component = 0) const
+  {
+    return this->Array && component < this->Array->GetNumberOfComponents()
+      ? this->Array->GetComponent(i, component)
+      : absent;
+  }
+  Vec3 Vector(vtkIdType i, const Vec3& absent) const
+  {
+    return { this->Value(i, absent.x, 0), this->Value(i, absent.y, 1),
+      this->Value(i, absent.z, 2) };
+  }
+  Rgb Color(vtkIdType i, const Rgb& absent) const
+  {
+    if (!this->Array)
+    {
+      return absent;
+    }
+    const int bands = this->Array->GetNumberOfComponents();
+    if (bands == 3)
+    {
+      return { this->Value(i, 0.0, 0), this->Value(i, 0.0, 1), this->Value(i, 0.0, 2) };
+    }
+    double sum = 0.0;
+    for (int b = 0; b < bands; ++b)
+    {
+      sum += this->Value(i, 0.0, b);
+    }
+    return (sum / bands) * Rgb{ 1.0, 1.0, 1.0 };
+  }
+  const char* Name;
+
+private:
+  vtkDataArray* Array;
+};
+
+bool IsFinite(const Rgb& c)
+{
+  return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
+
+/// Empty when the light can be drawn, else "array: what was expected".
+std::string WhatIsWrong(const DisplayLight& light, double cutoff)
+{
+  namespace names = radiometry::names;
+  const auto& p = light.Position;
+  if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+  {
+    return "Points: expected finite coordinates";
+  }
+  if (!IsFinite(light.Diffuse))
+  {
+    return std::string(names::Intensity) + ": expected finite values";
+  }
+  if (!IsFinite(light.Ambient))
+  {
+    return std::string(names::AmbientColor) + ": expected finite values";
+  }
+  if (!IsFinite(light.Specular))
+  {
+    return std::string(names::SpecularColor) + ": expected finite values";
+  }
+  if (!radiometry::IsFinite(light.SpotDirection) || light.SpotDirection == Vec3{})
+  {
+    return std::string(names::Direction) + ": expected a finite direction with a length";
+  }
+  if (!(cutoff > 0.0 && cutoff <= 90.0) && cutoff != 180.0)
+  {
+    return std::string(names::SpotCutoff) + ": expected (0, 90] or 180 degrees";
+  }
+  if (!(light.SpotExponent >= 0.0) || !std::isfinite(light.SpotExponent))
+  {
+    return std::string(names::SpotExponent) + ": expected a finite value of at least 0";
+  }
+  double sum = 0.0;
+  for (const double a : light.Attenuation)
+  {
+    if (!(a >= 0.0) || !std::isfinite(a))
+    {
+      return std::string(names::Attenuation) + ": expected finite values of at least 0";
+    }
+    sum += a;
+  }
+  return sum > 0.0 ? std::string()
+                   : std::string(names::Attenuation) + ": expected one value above 0";
+}
+
+void Put(std::vector<float>& texels, double x, double y, double z, double w)
+{
+  texels.push_back(static_cast<float>(x));
+  texels.push_back(static_cast<float>(y));
+  texels.push_back(static_cast<float>(z));
+  texels.push_back(static_cast<float>(w));
+}
+
+bool IsBlack(const Rgb& c)
+{
+  return c == Rgb();
+}
+
+Vec3 TransformPoint(vtkMatrix4x4* m, const Vec3& p)
+{
+  double in[4] = { p.x, p.y, p.z, 1.0 };
+  double out[4];
+  m->MultiplyPoint(in, out);
+  return { out[0] / out[3], out[1] / out[3], out[2] / out[3] };
+}
+
+/// A direction moves with the surface (no inverse transpose); its length is made one.
+Vec3 TransformDirection(vtkMatrix4x4* m, const Vec3& d)
+{
+  double in[4] = { d.x, d.y, d.z, 0.0 };
+  double out[4];
+  m->MultiplyPoint(in, out);
+  return radiometry::Normalized({ out[0], out[1], out[2] });
+}
+
+} // namespace
+
+CollectedLights CollectFromData(vtkPolyData* data)
+{
+  namespace names = radiometry::names;
+  CollectedLights result;
+  if (!data)
+  {
+    return result;
+  }
+  const LightArray type(data, names::LightType);
+  const LightArray intensity(data, names::Intensity);
+  const LightArray direction(data, names::Direction);
+  const LightArray cutoffs(data, names::SpotCutoff);
+  const LightArray inner(data, names::SpotInnerCutoff);
+  const LightArray exponent(data, names::SpotExponent);
+  const LightArray attenuation(data, names::Attenuation);
+  const LightArray enabled(data, names::LightEnabled);
+  const LightArray ambient(data, names::AmbientColor);
+  const LightArray specular(data, names::SpecularColor);
+  const LightArray attached(data, names::AttachedTo);
+  const auto complain = [&result](vtkIdType i, const std::string& what) {
+    if (result.Problem.empty())
+    {
+      std::ostringstream text;
+      text << "light " << i << " is left out of the picture: " << what;
+      result.Problem = text.str();
+    }
+  };
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    if (enabled.Value(i, 1.0) == 0.0)
+    {
+      continue;
+    }
+    const double kind = type.Value(i, 0.0);
+    if (kind == 3.0 || kind == 4.0)
+    {
+      ++result.NotDrawn;
+      continue;
+    }
+    if (kind != 0.0 && kind != 1.0 && kind != 2.0)
+    {
+      complain(i, std::string(names::LightType) + ": expected 0 to 4");
+      continue;
+    }
+    DisplayLight light;
+    light.SpotDirection = direction.Vector(i, { 0.0, 0.0, -1.0 });
+    double p[3];
+    data->GetPoint(i, p);
+    const Vec3 from = -light.SpotDirection;
+    light.Position = kind == 2.0 ? std::array<double, 4>{ { from.x, from.y, from.z, 0.0 } }
+                                 : std::array<double, 4>{ { p[0], p[1], p[2], 1.0 } };
+    light.Diffuse = intensity.Color(i, { 1.0, 1.0, 1.0 });
+    light.Specular = specular.Color(i, light.Diffuse);
+    light.Ambient = ambient.Color(i, Rgb());
+    const Vec3 abc = attenuation.Vector(i, { 0.0, 0.0, 1.0 });
+    light.Attenuation = { { abc.x, abc.y, abc.z } };
+    double cutoff = 180.0;
+    if (kind == 1.0)
+    {
+      cutoff = cutoffs.Value(i, 180.0);
+      light.SpotExponent = exponent.Value(i, 0.0);
+      if (cutoff < 180.0)
+      {
+        light.CosCutoff = cutoff == 90.0 ? 0.0 : std::cos(vtkMath::RadiansFromDegrees(cutoff));
+        const double innerCutoff = inner.Value(i, -1.0);
+        light.SmoothEdge = innerCutoff >= 0.0 && innerCutoff < cutoff;
+        light.CosInnerCutoff = std::cos(vtkMath::RadiansFromDegrees(innerCutoff));
+      }
+    }
+    const std::string wrong = WhatIsWrong(light, cutoff);
+    if (!wrong.empty())
+    {
+      complain(i, wrong);
+      continue;
+    }
+    const int frame = static_cast<int>(attached.Value(i, 0.0));
+    result.Lights.push_back(light);
+    result.Frames.push_back(static_cast<LightFrame>(std::clamp(frame, 0, 2)));
+  }
+  return result;
+}
+
+CollectedLights CollectFromRenderer(vtkRenderer* renderer, bool physical)
+{
+  CollectedLights result;
+  const double unit = physical ? vtkMath::Pi() : 1.0;
+  vtkLightCollection* lights = renderer->GetLights();
+  vtkCollectionSimpleIterator it;
+  lights->InitTraversal(it);
+  while (vtkLight* source = lights->GetNextLight(it))
+  {
+    if (!source->GetSwitch())
+    {
+      continue;
+    }
+    double position[3];
+    double focus[3];
+    source->GetTransformedPosition(position);
+    source->GetTransformedFocalPoint(focus);
+    const auto color = [&](const double* c) {
+      return (unit * source->GetIntensity()) * Rgb{ c[0], c[1], c[2] };
+    };
+    DisplayLight light;
+    light.SpotDirection = { focus[0] - position[0], focus[1] - position[1],
+      focus[2] - position[2] };
+    light.Diffuse = color(source->GetDiffuseColor());
+    light.Specular = color(source->GetSpecularColor());
+    light.Ambient = source->GetIntensity() *
+      Rgb{ source->GetAmbientColor()[0], source->GetAmbientColor()[1],
+        source->GetAmbientColor()[2] };
+    if (source->GetPositional())
+    {
+      light.Position = { { position[0], position[1], position[2], 1.0 } };
+      const double* a = source->GetAttenuationValues();
+      light.Attenuation = { { a[0], a[1], a[2] } };
+      if (source->GetConeAngle() < 90.0)
+      {
+        light.CosCutoff = std::cos(vtkMath::RadiansFromDegrees(source->GetConeAngle()));
+        light.SpotExponent = source->GetExponent();
+      }
+    }
+    else
+    {
+      const Vec3 from = -light.SpotDirection;
+      light.Position = { { from.x, from.y, from.z, 0.0 } };
+    }
+    const std::string wrong = WhatIsWrong(light, 180.0);
+    if (wrong.empty())
+    {
+      result.Lights.push_back(light);
+      result.Frames.push_back(LightFrame::Scene);
+    }
+    else if (result.Problem.empty())
+    {
+      result.Problem = "a vtkLight is left out of the picture: " + wrong;
+    }
+  }
+  return result;
+}
+
+PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView,
+  vtkMatrix4x4* objectToWorld, radiometry::ReflectionModel reflection, double scale,
+  double metersPerUnit)
+{
+  PackedLights packed;
+  vtkNew<vtkMatrix4x4> identity;
+  vtkNew<vtkMatrix4x4> objectToView;
+  vtkMatrix4x4::Multiply4x4(worldToView, objectToWorld, objectToView);
+  // Radiance of a Lambertian surface is E/pi: the division is done once, here.
+  const double unit = scale *
+    (reflection == radiometry::ReflectionModel::Physical ? 1.0 / vtkMath::Pi() : 1.0);
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    const int texels = static_cast<int>(packed.Texels.size() / 4);
+    packed.Ranges[kind][0] = texels / PackedLights::TexelsPerLight;
+    for (std::size_t i = 0; i < lights.Lights.size(); ++i)
+    {
+      const DisplayLight& light = lights.Lights[i];
+      const bool directional = light.Position[3] == 0.0;
+      const bool spot = !directional && light.CosCutoff > -1.0;
+      const bool black =
+        IsBlack(light.Diffuse) && IsBlack(light.Ambient) && IsBlack(light.Specular);
+      if ((directional ? 0 : (spot ? 2 : 1)) != kind || black || !light.Enabled || scale == 0.0)
+      {
+        continue;
+      }
+      vtkMatrix4x4* toView = lights.Frames[i] == LightFrame::Scene
+        ? worldToView
+        : (lights.Frames[i] == LightFrame::Object ? objectToView.Get() : identity.Get());
+      const Vec3 given{ light.Position[0], light.Position[1], light.Position[2] };
+      const Vec3 place =
+        directional ? TransformDirection(toView, given) : TransformPoint(toView, given);
+      const Vec3 axis = TransformDirection(toView, light.SpotDirection);
+      const Rgb diffuse = unit * light.Diffuse;
+      const Rgb specular = unit * light.Specular;
+      const Rgb ambient = scale * light.Ambient;
+      const double width = light.CosInnerCutoff - light.CosCutoff;
+      Put(packed.Texels, place.x, place.y, place.z, 0.0);
+      Put(packed.Texels, axis.x, axis.y, axis.z, light.CosCutoff);
+      Put(packed.Texels, diffuse.r, diffuse.g, diffuse.b, light.SpotExponent);
+      Put(packed.Texels, ambient.r, ambient.g, ambient.b, light.CosInnerCutoff);
+      // Lights with a hard edge have a step of any great slope there.
+      Put(packed.Texels, specular.r, specular.g, specular.b,
+        light.SmoothEdge && width > 0.0 ? 1.0 / width : 1e30);
+      Put(packed.Texels, light.Attenuation[0], light.Attenuation[1] * metersPerUnit,
+        light.Attenuation[2] * metersPerUnit * metersPerUnit, 0.0);
+
+      packed.Features.insert(directional ? "Directional" : (spot ? "Spot" : "Point"));
+      packed.Features.insert("Lights");
+      const auto need = [&packed](bool needed, const char* feature) {
+        if (needed)
+        {
+          packed.Features.insert(feature);
+        }
+      };
+      need(!IsBlack(light.Ambient), "LightAmbient");
+      need(!(light.Specular == light.Diffuse), "LightSpecular");
+      need(spot && light.SpotExponent != 0.0, "SpotExponent");
+      need(spot && light.SmoothEdge && width > 0.0, "SmoothEdge");
+      if (!directional)
+      {
+        const auto& a = light.Attenuation;
+        const bool constant = a[0] == 1.0 && a[1] == 0.0 && a[2] == 0.0;
+        const bool square = a[0] == 0.0 && a[1] == 0.0;
+        need(!constant && !square, "Attenuation");
+        need(square, "InverseSquare");
+        need(constant, "NoFallOff");
+      }
+    }
+    packed.Ranges[kind][1] =
+      static_cast<int>(packed.Texels.size() / 4) / PackedLights::TexelsPerLight;
+  }
+  // One formula for all lights: the polynomial where they differ.
+  ShaderFeatures& f = packed.Features;
+  if (f.count("InverseSquare") && f.count("NoFallOff"))
+  {
+    f.insert("Attenuation");
+  }
+  if (f.count("Attenuation"))
+  {
+    f.erase("InverseSquare");
+  }
+  f.erase("NoFallOff");
+  return packed;
+}
+
+} // namespace vtkradiometry

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef LightCollector_h
+#define LightCollector_h
+
+#include "ShaderTemplate.h"
+#include "radiometry/shading/LightingModel.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkMatrix4x4;
+class vtkPolyData;
+class vtkRenderer;
+
+namespace vtkradiometry
+{
+
+/// What a light's coordinates are relative to (the array AttachedTo).
+enum class LightFrame
+{
+  Scene = 0,  // world coordinates
+  Object = 1, // the actor's own coordinates
+  Camera = 2  // the eye at the origin, x right, y up, -z into the picture
+};
+
+struct CollectedLights
+{
+  std::vector<radiometry::DisplayLight> Lights;
+  std::vector<LightFrame> Frames;
+  int NotDrawn = 0;    // area and environment lights: the mapper has no formula for them
+  std::string Problem; // what was wrong with the arrays; empty: nothing
+};
+
+/// Reads the enabled lights of a polydata in the project's light arrays (docs/arrays.md).
+///   One band is grey, three are RGB, any other number is the grey of its mean.
+///   Lights whose values cannot be drawn (not finite, wrong cone, attenuation without a positive
+///   term) are left out and the first is named in Problem.
+CollectedLights CollectFromData(vtkPolyData* lights);
+
+/// Reads the lights that are switched on in a renderer, with VTK's meaning: a white diffuse surface
+/// that faces a vtkLight of intensity 1 shows 1. `physical` multiplies by pi what the reflection
+/// model will divide by it.
+CollectedLights CollectFromRenderer(vtkRenderer* renderer, bool physical);
+
+/// Lights as the shaders read them: six RGBA texels a light, in view coordinates, directional
+/// lights first, then points, then spots.
+///   0  x y z of the position, or of the direction that the light comes from; unused
+///   1  axis of the cone, cosine of its half-angle
+///   2  diffuse colour, exponent
+///   3  ambient colour, cosine of the inner half-angle
+///   4  specular colour, 1/(inner - outer)
+///   5  attenuation a, b, c; unused
+struct PackedLights
+{
+  static constexpr int TexelsPerLight = 6;
+  std::vector<float> Texels;
+  // [begin, end) of directional, point and spot lights.
+  std::array<std::array<int, 2>, 3> Ranges{ { { { 0, 0 } }, { { 0, 0 } }, { { 0, 0 } } } };
+  ShaderFeatures Features; // what these lights need of the shader
+};
+
+/// Moves lights into view coordinates and packs them. Only lights that give light are kept.
+///   worldToView, objectToWorld   as vtkCamera and vtkProp3D give them
+///   scale    multiplies every colour;  metersPerUnit turns view distances into metres
+PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView,
+  vtkMatrix4x4* objectToWorld, radiometry::ReflectionModel reflection, double scale,
+  double metersPerUnit);
+
+} // namespace vtkradiometry
+
+#endif
+// VTK-HeaderTest-Exclude: LightCollector.h

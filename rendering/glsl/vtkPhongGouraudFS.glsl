@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// //VTK::Light::Impl of the fragment shader. Before it stand VTK's ambientColor, diffuseColor,
+// specularColor, specularPower and opacity: the material of the side that is seen.
+//@if TwoSided
+//@if Mirrored
+  bool frontFacing = !gl_FrontFacing;
+//@else
+  bool frontFacing = gl_FrontFacing;
+//@end
+//@end
+//@if FragmentNormal
+//@if CellFrame
+  int frame = 2 * (gl_PrimitiveID + PrimitiveIDOffset);
+  vec3 N = safeNormal(normalMatrix * texelFetch(radiometryCellFrames, frame).xyz);
+//@else
+  vec3 N = safeNormal(normalVCVSOutput);
+//@end
+//@if TwoSided
+  N = frontFacing ? N : -N;
+//@end
+//@end
+//@if Field
+  vec3 field = vec3(0.0);
+//@if FieldOfCells
+  field += texelFetch(radiometryField, gl_PrimitiveID + PrimitiveIDOffset).rgb;
+//@end
+//@if FieldOfPoints
+  field += fieldVSOutput;
+//@end
+  field *= fieldScale;
+//@end
+//@if FieldIsReflectance
+  diffuseColor = field;
+  ambientColor = ambientIntensity * field;
+//@end
+//@if ShowField
+  gl_FragData[0] = vec4(field, opacity);
+//@end
+//@if ShowNormals
+  gl_FragData[0] = vec4(viewToWorld * N, 1.0);
+//@end
+//@if Lit
+//@if Ambient
+  vec3 color = ambientColor * globalAmbient;
+//@else
+  vec3 color = vec3(0.0);
+//@end
+//@if Lights
+//@if PerVertex
+//@if LightAmbient
+  color += ambientColor * ambientLightVSOutput;
+//@end
+//@if TwoSided
+  color += diffuseColor * (frontFacing ? diffuseFrontVSOutput : diffuseBackVSOutput);
+//@if Specular
+  color += specularColor * (frontFacing ? specularFrontVSOutput : specularBackVSOutput);
+//@end
+//@else
+  color += diffuseColor * diffuseFrontVSOutput;
+//@if Specular
+  color += specularColor * specularFrontVSOutput;
+//@end
+//@end
+//@else
+//@if PerCell
+  vec3 P = (MCVCMatrix * vec4(texelFetch(radiometryCellFrames, frame + 1).xyz, 1.0)).xyz;
+//@else
+  vec3 P = vertexVC.xyz;
+//@end
+//@if Specular
+//@if LocalViewer
+  vec3 V = -P / max(length(P), 1e-37);
+//@else
+  vec3 V = vec3(0.0, 0.0, 1.0);
+//@end
+//@end
+  LightSums sums = sumLights(P, N
+//@if Specular
+    , V, specularPower
+//@end
+    );
+  color += diffuseColor * sums.diffuse;
+//@if LightAmbient
+  color += ambientColor * sums.ambient;
+//@end
+//@if Specular
+  color += specularColor * sums.specular;
+//@end
+//@end
+//@end
+//@if Emission
+//@if TwoSided
+  color += frontFacing ? emission : backEmission;
+//@else
+  color += emission;
+//@end
+//@end
+//@if Edges
+  color = mix(color, edgeColor, emix);
+//@end
+  gl_FragData[0] = vec4(color, opacity);
+//@end

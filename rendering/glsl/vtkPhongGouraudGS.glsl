@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// //VTK::Light::Impl of that geometry shader, once for each vertex i.
+//@if FieldOfPoints
+  fieldGSOutput = fieldVSOutput[i];
+//@end
+//@if PerVertex
+  diffuseFrontGSOutput = diffuseFrontVSOutput[i];
+//@if LightAmbient
+  ambientLightGSOutput = ambientLightVSOutput[i];
+//@end
+//@if Specular
+  specularFrontGSOutput = specularFrontVSOutput[i];
+//@end
+//@if TwoSided
+  diffuseBackGSOutput = diffuseBackVSOutput[i];
+//@if Specular
+  specularBackGSOutput = specularBackVSOutput[i];
+//@end
+//@end
+//@end

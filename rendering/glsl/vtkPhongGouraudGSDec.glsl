@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declarations of the geometry shader that VTK inserts for edges: what it must hand through.
+//@if FieldOfPoints
+in vec3 fieldVSOutput[];
+out vec3 fieldGSOutput;
+//@end
+//@if PerVertex
+in vec3 diffuseFrontVSOutput[];
+out vec3 diffuseFrontGSOutput;
+//@if LightAmbient
+in vec3 ambientLightVSOutput[];
+out vec3 ambientLightGSOutput;
+//@end
+//@if Specular
+in vec3 specularFrontVSOutput[];
+out vec3 specularFrontGSOutput;
+//@end
+//@if TwoSided
+in vec3 diffuseBackVSOutput[];
+out vec3 diffuseBackGSOutput;
+//@if Specular
+in vec3 specularBackVSOutput[];
+out vec3 specularBackGSOutput;
+//@end
+//@end
+//@end

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declarations of the vertex shader (//VTK::Light::Dec).
+//@if FieldOfPoints
+in vec3 radiometryFieldMC;
+out vec3 fieldVSOutput;
+//@end
+//@if PerVertex
+//@if Specular
+uniform float specularPowerUniform;
+//@if TwoSided
+//@if BackMaterial
+uniform float specularPowerUniformBF;
+//@end
+//@end
+//@end
+out vec3 diffuseFrontVSOutput;
+//@if LightAmbient
+out vec3 ambientLightVSOutput;
+//@end
+//@if Specular
+out vec3 specularFrontVSOutput;
+//@end
+//@if TwoSided
+out vec3 diffuseBackVSOutput;
+//@if Specular
+out vec3 specularBackVSOutput;
+//@end
+//@end
+//@end

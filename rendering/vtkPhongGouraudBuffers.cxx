@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The buffers of vtkPhongGouraudHelper: the field at points, the field and the frames of cells.
+#include "vtkPhongGouraudHelper.h"
+
+#include "vtkPhongGouraudMapper.h"
+
+#include "vtkActor.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkFloatArray.h"
+#include "vtkOpenGLVertexBufferObject.h"
+#include "vtkOpenGLVertexBufferObjectGroup.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+
+#include "radiometry/scene/Vec3.h"
+
+#include <array>
+#include <cmath>
+
+namespace
+{
+
+using radiometry::Vec3;
+
+/// The bands of one tuple as RGB: three are taken as they are, any other number by their mean.
+std::array<float, 3> ToRgb(vtkDataArray* field, vtkIdType tuple)
+{
+  const int bands = field->GetNumberOfComponents();
+  if (bands == 3)
+  {
+    return { { static_cast<float>(field->GetComponent(tuple, 0)),
+      static_cast<float>(field->GetComponent(tuple, 1)),
+      static_cast<float>(field->GetComponent(tuple, 2)) } };
+  }
+  double sum = 0.0;
+  for (int b = 0; b < bands; ++b)
+  {
+    sum += field->GetComponent(tuple, b);
+  }
+  const float grey = static_cast<float>(sum / bands);
+  return { { grey, grey, grey } };
+}
+
+Vec3 PointAt(vtkPolyData* block, vtkIdType id)
+{
+  double p[3];
+  block->GetPoint(id, p);
+  return { p[0], p[1], p[2] };
+}
+
+struct CellFrame
+{
+  Vec3 Normal; // unit; zero for a cell without area
+  Vec3 Center; // mean of the points
+};
+
+/// Normal (right-hand rule, mean over the polygon by Newell's sum) and centre of a polygon.
+CellFrame FrameOf(vtkPolyData* block, vtkIdType count, const vtkIdType* ids)
+{
+  CellFrame frame;
+  const Vec3 origin = PointAt(block, ids[0]);
+  Vec3 previous = PointAt(block, ids[count - 1]) - origin;
+  Vec3 sum;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const Vec3 next = PointAt(block, ids[i]) - origin;
+    frame.Normal += Cross(previous, next);
+    sum += next;
+    previous = next;
+  }
+  frame.Normal = Normalized(frame.Normal);
+  frame.Center = origin + sum / static_cast<double>(count);
+  return frame;
+}
+
+/// Calls f(frame) for each triangle of polygons and strips in the order in which they are drawn.
+/// `cellOfPolygonTriangle` names the cell of each triangle of the polygons.
+template <typename F>
+void ForEachTriangleFrame(vtkPolyData* block, const std::vector<vtkIdType>& cellOfPolygonTriangle,
+  vtkIdType firstPolygon, const F& f)
+{
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  std::size_t triangle = 0;
+  vtkIdType cell = firstPolygon;
+  auto polygons = vtk::TakeSmartPointer(block->GetPolys()->NewIterator());
+  for (polygons->GoToFirstCell(); !polygons->IsDoneWithTraversal(); polygons->GoToNextCell())
+  {
+    polygons->GetCurrentCell(count, ids);
+    CellFrame frame;
+    bool made = false;
+    for (; triangle < cellOfPolygonTriangle.size() && cellOfPolygonTriangle[triangle] == cell;
+         ++triangle)
+    {
+      if (!made)
+      {
+        frame = FrameOf(block, count, ids);
+        made = true;
+      }
+      f(frame);
+    }
+    ++cell;
+  }
+  auto strips = vtk::TakeSmartPointer(block->GetStrips()->NewIterator());
+  for (strips->GoToFirstCell(); !strips->IsDoneWithTraversal(); strips->GoToNextCell())
+  {
+    strips->GetCurrentCell(count, ids);
+    for (vtkIdType i = 2; i < count; ++i)
+    {
+      const vtkIdType corners[3] = { ids[i - 2], i % 2 ? ids[i] : ids[i - 1],
+        i % 2 ? ids[i - 1] : ids[i] };
+      f(FrameOf(block, 3, corners));
+    }
+  }
+}
+
+/// Does every cell have one normal at all its points?
+bool HasOneNormalPerCell(vtkPolyData* block)
+{
+  vtkDataArray* normals = block->GetPointData()->GetNormals();
+  if (!normals)
+  {
+    return false;
+  }
+  for (vtkCellArray* cells : { block->GetPolys(), block->GetStrips() })
+  {
+    auto it = vtk::TakeSmartPointer(cells->NewIterator());
+    for (it->GoToFirstCell(); !it->IsDoneWithTraversal(); it->GoToNextCell())
+    {
+      vtkIdType count = 0;
+      const vtkIdType* ids = nullptr;
+      it->GetCurrentCell(count, ids);
+      for (vtkIdType i = 1; i < count; ++i)
+      {
+        for (int c = 0; c < 3; ++c)
+        {
+          if (normals->GetComponent(ids[i], c) != normals->GetComponent(ids[0], c))
+          {
+            return false;
+          }
+        }
+      }
+    }
+  }
+  return true;
+}
+
+void SetTexel(std::vector<float>& texels, std::size_t i, double x, double y, double z)
+{
+  texels[4 * i] = static_cast<float>(x);
+  texels[4 * i + 1] = static_cast<float>(y);
+  texels[4 * i + 2] = static_cast<float>(z);
+}
+
+} // namespace
+
+vtkDataArray* vtkPhongGouraudHelper::FindField(vtkPolyData* block, bool& ofCells)
+{
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  ofCells = false;
+  if (mapper->FieldMode != vtkPhongGouraudMapper::FIELD_ON &&
+    mapper->FieldMode != vtkPhongGouraudMapper::FIELD_REFLECTANCE)
+  {
+    return nullptr;
+  }
+  const char* name = mapper->FieldArrayName.c_str();
+  if (mapper->FieldAssociation != 1)
+  {
+    vtkDataArray* array = block->GetPointData()->GetArray(name);
+    if (array && array->GetNumberOfTuples() == block->GetNumberOfPoints())
+    {
+      return array;
+    }
+  }
+  if (mapper->FieldAssociation != 0)
+  {
+    vtkDataArray* array = block->GetCellData()->GetArray(name);
+    if (array && array->GetNumberOfTuples() == block->GetNumberOfCells())
+    {
+      ofCells = true;
+      return array;
+    }
+  }
+  return nullptr;
+}
+
+bool vtkPhongGouraudHelper::GetNeedToRebuildBufferObjects(vtkRenderer* ren, vtkActor* act)
+{
+  return this->Superclass::GetNeedToRebuildBufferObjects(ren, act) ||
+    this->VBOBuildTime < this->Mapper()->BufferTime;
+}
+
+void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
+{
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  this->FieldOfCells = false;
+  this->FieldOfPoints = false;
+  this->ConstantInCells = mapper->Shading == vtkPhongGouraudMapper::AUTO;
+  for (auto& data : this->Data)
+  {
+    bool ofCells = false;
+    if (this->FindField(data.first, ofCells))
+    {
+      (ofCells ? this->FieldOfCells : this->FieldOfPoints) = true;
+    }
+    this->ConstantInCells = this->ConstantInCells && HasOneNormalPerCell(data.first);
+  }
+  const bool wanted = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON ||
+    mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
+  if (wanted && !this->FieldOfCells && !this->FieldOfPoints)
+  {
+    vtkWarningWithObjectMacro(mapper, << "no point or cell array \"" << mapper->FieldArrayName
+                                      << "\": these blocks are drawn black");
+  }
+  this->Superclass::BuildBufferObjects(ren, act);
+  this->BuildCellBuffers(ren, act);
+}
+
+void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* act,
+  vtkCompositeMapperHelperData* hdata, vtkIdType& flatIndex, std::vector<unsigned char>& colors,
+  std::vector<float>& norms)
+{
+  vtkDataArray* points = hdata->Data->GetPoints()->GetData();
+  vtkIdType offset = 0;
+  vtkIdType before = 0;
+  vtkIdType after = 0;
+  this->VBOs->ArrayExists("vertexMC", points, offset, before);
+  this->Superclass::AppendOneBufferObject(ren, act, hdata, flatIndex, colors, norms);
+  this->VBOs->ArrayExists("vertexMC", points, offset, after);
+  if (this->FieldOfPoints)
+  {
+    this->AppendField(hdata, after > before);
+  }
+  vtkPolyData* block = hdata->Data;
+  vtkCellArray* prims[4] = { block->GetVerts(), block->GetLines(), block->GetPolys(),
+    block->GetStrips() };
+  hdata->CellCellMap->Update(prims, act->GetProperty()->GetRepresentation(), block->GetPoints());
+}
+
+void vtkPhongGouraudHelper::AppendField(vtkCompositeMapperHelperData* hdata, bool newPoints)
+{
+  bool ofCells = false;
+  vtkDataArray* field = this->FindField(hdata->Data, ofCells);
+  field = ofCells ? nullptr : field;
+  if (!newPoints)
+  {
+    // VTK draws blocks that share their points from one copy of them; so must their field be.
+    if (this->FieldOfShared[hdata->Data->GetPoints()->GetData()] != field)
+    {
+      vtkErrorWithObjectMacro(this->Mapper(),
+        << "two blocks share one array of points but not the field \""
+        << this->Mapper()->FieldArrayName << "\": give each its own points");
+    }
+    return;
+  }
+  this->FieldOfShared[hdata->Data->GetPoints()->GetData()] = field;
+  vtkNew<vtkFloatArray> values;
+  values->SetNumberOfComponents(3);
+  const vtkIdType count = hdata->Data->GetNumberOfPoints();
+  values->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const std::array<float, 3> rgb =
+      field ? ToRgb(field, i) : std::array<float, 3>{ { 0.0f, 0.0f, 0.0f } };
+    values->SetTypedTuple(i, rgb.data());
+  }
+  this->VBOs->AppendDataArray("radiometryFieldMC", values, VTK_FLOAT);
+}
+
+void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
+{
+  this->FieldOfShared.clear();
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  const bool surface = act->GetProperty()->GetRepresentation() == VTK_SURFACE;
+  const bool frames = surface && mapper->FieldMode != vtkPhongGouraudMapper::FIELD_ON &&
+    (mapper->Shading == vtkPhongGouraudMapper::FLAT || !this->HasPointNormals());
+  const bool fields = surface && this->FieldOfCells;
+  if (!frames)
+  {
+    this->FrameBuffer.Free();
+  }
+  if (!fields)
+  {
+    this->FieldBuffer.Free();
+  }
+  if (this->Data.empty() || (!frames && !fields))
+  {
+    return;
+  }
+
+  // Centres are stored as the vertices are: VTK may shift and scale these.
+  Vec3 shift;
+  Vec3 scale{ 1.0, 1.0, 1.0 };
+  vtkOpenGLVertexBufferObject* positions = this->VBOs->GetVBO("vertexMC");
+  if (positions && positions->GetCoordShiftAndScaleEnabled())
+  {
+    const std::vector<double>& s = positions->GetShift();
+    const std::vector<double>& f = positions->GetScale();
+    shift = { s[0], s[1], s[2] };
+    scale = { f[0], f[1], f[2] };
+  }
+
+  std::size_t total = 0;
+  for (auto& data : this->Data)
+  {
+    total = static_cast<std::size_t>(data.second->CellCellMap->GetFinalOffset());
+  }
+  std::vector<float> frameTexels(frames ? 8 * total : 0, 0.0f);
+  std::vector<float> fieldTexels(fields ? 4 * total : 0, 0.0f);
+  for (auto& data : this->Data)
+  {
+    vtkPolyData* block = data.first;
+    vtkOpenGLCellToVTKCellMap* map = data.second->CellCellMap;
+    const vtkIdType* offsets = map->GetPrimitiveOffsets();
+    bool ofCells = false;
+    vtkDataArray* field = this->FindField(block, ofCells);
+    if (fields && field && ofCells)
+    {
+      for (std::size_t i = 0; i < map->GetSize(); ++i)
+      {
+        const std::array<float, 3> rgb = ToRgb(field, map->GetValue(i));
+        SetTexel(fieldTexels, static_cast<std::size_t>(offsets[0]) + i, rgb[0], rgb[1], rgb[2]);
+      }
+    }
+    if (frames)
+    {
+      std::vector<vtkIdType> cellOfTriangle;
+      for (vtkIdType i = offsets[2] - offsets[0]; i < offsets[3] - offsets[0]; ++i)
+      {
+        cellOfTriangle.push_back(map->GetValue(static_cast<std::size_t>(i)));
+      }
+      std::size_t texel = static_cast<std::size_t>(offsets[2]);
+      const vtkIdType firstPolygon =
+        block->GetVerts()->GetNumberOfCells() + block->GetLines()->GetNumberOfCells();
+      ForEachTriangleFrame(block, cellOfTriangle, firstPolygon, [&](const CellFrame& frame) {
+        const Vec3 c = frame.Center - shift;
+        SetTexel(frameTexels, 2 * texel, frame.Normal.x, frame.Normal.y, frame.Normal.z);
+        SetTexel(frameTexels, 2 * texel + 1, c.x * scale.x, c.y * scale.y, c.z * scale.z);
+        ++texel;
+      });
+    }
+  }
+  this->FrameBuffer.Upload(ren, std::move(frameTexels));
+  this->FieldBuffer.Upload(ren, std::move(fieldTexels));
+}

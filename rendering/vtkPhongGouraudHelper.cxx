@@ -1,0 +1,539 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPhongGouraudHelper.h"
+
+#include "vtkPhongGouraudMapper.h"
+
+#include "vtkPhongGouraudFS.h"
+#include "vtkPhongGouraudFSDec.h"
+#include "vtkPhongGouraudGS.h"
+#include "vtkPhongGouraudGSDec.h"
+#include "vtkPhongGouraudVS.h"
+#include "vtkPhongGouraudVSDec.h"
+#include "vtkRadiometryLights.h"
+
+#include "vtk_glew.h"
+
+#include "vtkCamera.h"
+#include "vtkInformation.h"
+#include "vtkInformationObjectBaseKey.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLActor.h"
+#include "vtkOpenGLBufferObject.h"
+#include "vtkOpenGLHelper.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLVertexBufferObjectGroup.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkShader.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+
+#include <algorithm>
+
+using vtkradiometry::ExpandShader;
+using vtkradiometry::ShaderFeatures;
+
+vtkStandardNewMacro(vtkPhongGouraudHelper);
+
+namespace
+{
+
+bool Has(const ShaderFeatures& features, const char* name)
+{
+  return features.count(name) != 0;
+}
+
+bool IsBlack(const double* color)
+{
+  return color[0] == 0.0 && color[1] == 0.0 && color[2] == 0.0;
+}
+
+void Replace(vtkShader* shader, const char* tag, const std::string& text)
+{
+  std::string source = shader->GetSource();
+  vtkShaderProgram::Substitute(source, tag, text, false);
+  shader->SetSource(source);
+}
+
+} // namespace
+
+vtkPhongGouraudHelper::~vtkPhongGouraudHelper()
+{
+  this->LightBuffer.Free();
+  this->FrameBuffer.Free();
+  this->FieldBuffer.Free();
+}
+
+vtkPhongGouraudMapper* vtkPhongGouraudHelper::Mapper() const
+{
+  return static_cast<vtkPhongGouraudMapper*>(this->Parent);
+}
+
+//------------------------------------------------------------------------------
+// What is drawn, and what it needs
+//------------------------------------------------------------------------------
+bool vtkPhongGouraudHelper::DrawsItself(vtkOpenGLHelper& cellBO, vtkActor* act)
+{
+  if (this->CurrentSelector || this->DrawingSelection || this->DrawingVertices)
+  {
+    return false;
+  }
+  const int mode = this->Mapper()->FieldMode;
+  const bool needsLight = mode == vtkPhongGouraudMapper::FIELD_OFF ||
+    mode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
+  if (needsLight && !act->GetProperty()->GetLighting())
+  {
+    return false;
+  }
+  return this->GetOpenGLMode(act->GetProperty()->GetRepresentation(), cellBO.PrimitiveType) ==
+    GL_TRIANGLES;
+}
+
+bool vtkPhongGouraudHelper::HasPointNormals()
+{
+  return this->VBOs->GetNumberOfComponents("normalMC") == 3;
+}
+
+bool vtkPhongGouraudHelper::UsesScalarColors()
+{
+  return this->VBOs->GetNumberOfComponents("scalarColor") != 0 || this->HaveCellScalars ||
+    (this->InterpolateScalarsBeforeMapping && this->ColorCoordinates);
+}
+
+ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
+{
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  vtkProperty* front = act->GetProperty();
+  vtkProperty* back = act->GetBackfaceProperty();
+  ShaderFeatures needs;
+  const auto need = [&needs](bool needed, const char* feature) {
+    if (needed)
+    {
+      needs.insert(feature);
+    }
+  };
+  const auto either = [&](auto property) { return property(front) || (back && property(back)); };
+
+  need(mapper->TwoSided || back, "TwoSided");
+  vtkNew<vtkMatrix4x4> objectToWorld;
+  act->GetModelToWorldMatrix(objectToWorld);
+  need(Has(needs, "TwoSided") && objectToWorld->Determinant() < 0.0, "Mirrored");
+  need(this->DrawingEdges(ren, act), "Edges");
+
+  const bool lit = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_OFF ||
+    mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
+  need(lit, "Lit");
+  need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON, "ShowField");
+  need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE, "FieldIsReflectance");
+  need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_NORMALS, "ShowNormals");
+  if (Has(needs, "ShowField") || Has(needs, "FieldIsReflectance"))
+  {
+    needs.insert("Field");
+    need(this->FieldOfCells, "FieldOfCells");
+    need(this->FieldOfPoints, "FieldOfPoints");
+  }
+
+  const bool smooth = this->HasPointNormals();
+  int shading = mapper->Shading;
+  if (lit)
+  {
+    need(!IsBlack(mapper->Emission) || !IsBlack(mapper->BackEmission), "Emission");
+    need(either([](vtkProperty* p) { return p->GetAmbient() > 0.0; }), "Ambient");
+    for (const std::string& feature : this->Lights.Features)
+    {
+      needs.insert(feature);
+    }
+    const bool lights = Has(needs, "Lights");
+    const bool specular =
+      lights && either([](vtkProperty* p) {
+        return p->GetSpecular() > 0.0 && !IsBlack(p->GetSpecularColor());
+      });
+    need(specular, "Specular");
+    need(Has(needs, "Point") || Has(needs, "Spot"), "Finite");
+    if (!Has(needs, "Ambient"))
+    {
+      needs.erase("LightAmbient");
+    }
+    if (specular)
+    {
+      const bool parallel = ren->GetActiveCamera()->GetParallelProjection() != 0;
+      need(mapper->LocalViewer && !parallel, "LocalViewer");
+      const char* models[] = { "BlinnPhong", "Phong", "Physical" };
+      needs.insert(models[mapper->ReflectionModel]);
+      need(back && !this->UsesScalarColors(), "BackMaterial");
+    }
+    else
+    {
+      needs.erase("LightSpecular");
+    }
+    if (shading == vtkPhongGouraudMapper::AUTO)
+    {
+      // Directional lights on a diffuse surface with one normal a cell: nothing varies in a cell.
+      const bool constant = this->ConstantInCells && !specular && !Has(needs, "Finite");
+      shading = constant ? vtkPhongGouraudMapper::GOURAUD : vtkPhongGouraudMapper::PHONG;
+    }
+    if (shading == vtkPhongGouraudMapper::GOURAUD && !smooth)
+    {
+      shading = vtkPhongGouraudMapper::PHONG;
+    }
+    need(lights && shading == vtkPhongGouraudMapper::GOURAUD, "PerVertex");
+    need(lights && shading == vtkPhongGouraudMapper::FLAT, "PerCell");
+    need(lights && !Has(needs, "PerVertex"), "FragmentNormal");
+    mapper->ShadingUsed = shading;
+  }
+  need(Has(needs, "ShowNormals"), "FragmentNormal");
+  need(Has(needs, "FragmentNormal") && (shading == vtkPhongGouraudMapper::FLAT || !smooth),
+    "CellFrame");
+  need(Has(needs, "FragmentNormal") || Has(needs, "PerVertex"), "NeedsNormal");
+  return needs;
+}
+
+bool vtkPhongGouraudHelper::GetNeedToRebuildShaders(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  this->Ours = this->DrawsItself(cellBO, act);
+  const bool rebuild = this->Superclass::GetNeedToRebuildShaders(cellBO, ren, act);
+  std::string signature;
+  if (this->Ours)
+  {
+    this->Features = this->Needs(ren, act);
+    for (const std::string& feature : this->Features)
+    {
+      signature += (signature.empty() ? "" : " ") + feature;
+    }
+    this->Mapper()->ShaderFeatureText = signature;
+  }
+  std::string& last = this->Signatures[&cellBO];
+  if (last == signature)
+  {
+    return rebuild;
+  }
+  last = signature;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Shader text
+//------------------------------------------------------------------------------
+void vtkPhongGouraudHelper::BuildShaders(ShaderMap shaders, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::BuildShaders(shaders, ren, act);
+  if (this->Ours)
+  {
+    vtkPhongGouraudMapper* mapper = this->Mapper();
+    mapper->VertexShaderText = shaders[vtkShader::Vertex]->GetSource();
+    mapper->FragmentShaderText = shaders[vtkShader::Fragment]->GetSource();
+    ++mapper->NumberOfShaderBuilds;
+  }
+}
+
+void vtkPhongGouraudHelper::ReplaceShaderValues(
+  ShaderMap shaders, vtkRenderer* ren, vtkActor* act)
+{
+  if (!this->Ours)
+  {
+    this->Superclass::ReplaceShaderValues(shaders, ren, act);
+    return;
+  }
+  // VTK hands positions to the fragment shader only where it counts lights of its own.
+  int& complexity = this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity;
+  const int saved = complexity;
+  complexity = 3;
+  this->Superclass::ReplaceShaderValues(shaders, ren, act);
+  complexity = saved;
+}
+
+void vtkPhongGouraudHelper::ReplaceShaderColor(ShaderMap shaders, vtkRenderer* ren, vtkActor* act)
+{
+  if (!this->Ours)
+  {
+    this->Superclass::ReplaceShaderColor(shaders, ren, act);
+    return;
+  }
+  int& complexity = this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity;
+  complexity = Has(this->Features, "Specular") ? 3 : 0;
+  this->Superclass::ReplaceShaderColor(shaders, ren, act);
+  complexity = 3;
+  if (Has(this->Features, "Mirrored"))
+  {
+    // A mirrored actor shows its fronts with the other winding.
+    std::string source = shaders[vtkShader::Fragment]->GetSource();
+    vtkShaderProgram::Substitute(source, "gl_FrontFacing == false", "gl_FrontFacing == true");
+    shaders[vtkShader::Fragment]->SetSource(source);
+  }
+}
+
+void vtkPhongGouraudHelper::ReplaceShaderNormal(
+  ShaderMap shaders, vtkRenderer* ren, vtkActor* act)
+{
+  if (!this->Ours)
+  {
+    this->Superclass::ReplaceShaderNormal(shaders, ren, act);
+    return;
+  }
+  const bool fragment =
+    Has(this->Features, "FragmentNormal") && !Has(this->Features, "CellFrame");
+  if (fragment || Has(this->Features, "PerVertex"))
+  {
+    Replace(shaders[vtkShader::Vertex], "//VTK::Normal::Dec",
+      "in vec3 normalMC;\nuniform mat3 normalMatrix;\n//VTK::Normal::Dec");
+  }
+  if (fragment)
+  {
+    Replace(shaders[vtkShader::Vertex], "//VTK::Normal::Dec", "out vec3 normalVCVSOutput;");
+    Replace(shaders[vtkShader::Vertex], "//VTK::Normal::Impl",
+      "normalVCVSOutput = normalMatrix * normalMC;");
+    Replace(shaders[vtkShader::Geometry], "//VTK::Normal::Dec",
+      "in vec3 normalVCVSOutput[];\nout vec3 normalVCGSOutput;");
+    Replace(shaders[vtkShader::Geometry], "//VTK::Normal::Impl",
+      "normalVCGSOutput = normalVCVSOutput[i];");
+    Replace(shaders[vtkShader::Fragment], "//VTK::Normal::Dec", "in vec3 normalVCVSOutput;");
+  }
+}
+
+void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* ren, vtkActor* act)
+{
+  if (!this->Ours)
+  {
+    this->Superclass::ReplaceShaderLight(shaders, ren, act);
+    return;
+  }
+  const ShaderFeatures& features = this->Features;
+  // The functions go where the lights are summed, and only there.
+  ShaderFeatures vertex = features;
+  ShaderFeatures fragment = features;
+  if (Has(features, "PerVertex"))
+  {
+    fragment.erase("Lights");
+    fragment.erase("Finite");
+    fragment.erase("Spot");
+    fragment.erase("NeedsNormal");
+  }
+  else
+  {
+    vertex.erase("Lights");
+    vertex.erase("NeedsNormal");
+    vertex.erase("Finite");
+    vertex.erase("Spot");
+  }
+  Replace(shaders[vtkShader::Vertex], "//VTK::Light::Dec",
+    ExpandShader(vtkPhongGouraudVSDec, features) + ExpandShader(vtkRadiometryLights, vertex));
+  Replace(shaders[vtkShader::Vertex], "//VTK::Light::Impl",
+    ExpandShader(vtkPhongGouraudVS, features));
+  Replace(shaders[vtkShader::Geometry], "//VTK::Light::Dec",
+    ExpandShader(vtkPhongGouraudGSDec, features));
+  Replace(shaders[vtkShader::Geometry], "//VTK::Light::Impl",
+    ExpandShader(vtkPhongGouraudGS, features));
+  Replace(shaders[vtkShader::Fragment], "//VTK::Light::Dec",
+    ExpandShader(vtkPhongGouraudFSDec, features) + ExpandShader(vtkRadiometryLights, fragment));
+  Replace(shaders[vtkShader::Fragment], "//VTK::Light::Impl",
+    ExpandShader(vtkPhongGouraudFS, features));
+}
+
+//------------------------------------------------------------------------------
+// Uniforms
+//------------------------------------------------------------------------------
+void vtkPhongGouraudHelper::SetPropertyShaderParameters(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  int& complexity = this->PrimitiveInfo[&cellBO].LastLightComplexity;
+  const int saved = complexity;
+  if (this->Ours)
+  {
+    complexity = 3;
+  }
+  this->Superclass::SetPropertyShaderParameters(cellBO, ren, act);
+  complexity = saved;
+}
+
+void vtkPhongGouraudHelper::SetLightingShaderParameters(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  if (!this->Ours)
+  {
+    this->Superclass::SetLightingShaderParameters(cellBO, ren, act);
+    return;
+  }
+  vtkShaderProgram* program = cellBO.Program;
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  const auto bind = [program](const char* name, FloatBuffer& buffer) {
+    if (buffer.Texture && program->IsUniformUsed(name))
+    {
+      program->SetUniformi(name, buffer.Texture->GetTextureUnit());
+    }
+  };
+  bind("radiometryLights", this->LightBuffer);
+  bind("radiometryCellFrames", this->FrameBuffer);
+  bind("radiometryField", this->FieldBuffer);
+  const char* ranges[] = { "directionalRange", "pointRange", "spotRange" };
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    if (program->IsUniformUsed(ranges[kind]))
+    {
+      program->SetUniform2i(ranges[kind], this->Lights.Ranges[kind].data());
+    }
+  }
+  const auto color = [program](const char* name, const double* value) {
+    if (program->IsUniformUsed(name))
+    {
+      program->SetUniform3f(name, value);
+    }
+  };
+  color("globalAmbient", mapper->GlobalAmbient);
+  color("emission", mapper->Emission);
+  color("backEmission", mapper->BackEmission);
+  if (program->IsUniformUsed("fieldScale"))
+  {
+    program->SetUniformf("fieldScale", static_cast<float>(mapper->FieldScale));
+  }
+  if (program->IsUniformUsed("viewToWorld"))
+  {
+    // SetUniformMatrix hands rows over as columns: the rotation to view becomes its inverse.
+    vtkMatrix4x4* worldToView = ren->GetActiveCamera()->GetModelViewTransformMatrix();
+    vtkNew<vtkMatrix3x3> rotation;
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        rotation->SetElement(i, j, worldToView->GetElement(i, j));
+      }
+    }
+    program->SetUniformMatrix("viewToWorld", rotation);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Lights
+//------------------------------------------------------------------------------
+void vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren, vtkActor* act)
+{
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  const auto model = static_cast<radiometry::ReflectionModel>(mapper->ReflectionModel);
+  vtkPolyData* data = mapper->LightData;
+  if (!data && ren->GetInformation()->Has(vtkPhongGouraudMapper::LIGHT_DATA()))
+  {
+    data = vtkPolyData::SafeDownCast(
+      ren->GetInformation()->Get(vtkPhongGouraudMapper::LIGHT_DATA()));
+  }
+  const vtkradiometry::CollectedLights collected = data
+    ? vtkradiometry::CollectFromData(data)
+    : vtkradiometry::CollectFromRenderer(ren, model == radiometry::ReflectionModel::Physical);
+  if (!collected.Problem.empty() && collected.Problem != mapper->ReportedProblem)
+  {
+    vtkErrorWithObjectMacro(mapper, << collected.Problem);
+  }
+  mapper->ReportedProblem = collected.Problem;
+
+  vtkNew<vtkMatrix4x4> objectToWorld;
+  act->GetModelToWorldMatrix(objectToWorld);
+  this->Lights = vtkradiometry::PackLights(collected,
+    ren->GetActiveCamera()->GetModelViewTransformMatrix(), objectToWorld, model,
+    mapper->LightScale, mapper->MetersPerUnit);
+  mapper->NumberOfLightsDrawn = this->Lights.Ranges[2][1];
+  mapper->NumberOfLightsNotDrawn = collected.NotDrawn;
+}
+
+//------------------------------------------------------------------------------
+// Drawing
+//------------------------------------------------------------------------------
+void vtkPhongGouraudHelper::RenderPiece(vtkRenderer* ren, vtkActor* act)
+{
+  if (!ren->GetSelector())
+  {
+    this->CollectLights(ren, act);
+  }
+  this->Superclass::RenderPiece(ren, act);
+}
+
+void vtkPhongGouraudHelper::RenderPieceStart(vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::RenderPieceStart(ren, act);
+  if (!ren->GetSelector())
+  {
+    this->LightBuffer.Upload(ren, std::vector<float>(this->Lights.Texels));
+    this->LightBuffer.Activate();
+    this->FrameBuffer.Activate();
+    this->FieldBuffer.Activate();
+  }
+}
+
+void vtkPhongGouraudHelper::RenderPieceFinish(vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::RenderPieceFinish(ren, act);
+  if (!ren->GetSelector())
+  {
+    this->LightBuffer.Deactivate();
+    this->FrameBuffer.Deactivate();
+    this->FieldBuffer.Deactivate();
+  }
+}
+
+void vtkPhongGouraudHelper::ReleaseGraphicsResources(vtkWindow* win)
+{
+  this->LightBuffer.Release(win);
+  this->FrameBuffer.Release(win);
+  this->FieldBuffer.Release(win);
+  this->Signatures.clear();
+  this->Superclass::ReleaseGraphicsResources(win);
+}
+
+void vtkPhongGouraudHelper::FloatBuffer::Upload(vtkRenderer* ren, std::vector<float>&& values)
+{
+  if (values.empty() || (this->Texture && values == this->Values))
+  {
+    return;
+  }
+  if (!this->Texture)
+  {
+    this->Texture = vtkTextureObject::New();
+    this->Buffer = vtkOpenGLBufferObject::New();
+    this->Buffer->SetType(vtkOpenGLBufferObject::TextureBuffer);
+  }
+  this->Values = std::move(values);
+  this->Texture->SetContext(static_cast<vtkOpenGLRenderWindow*>(ren->GetVTKWindow()));
+  this->Buffer->Upload(this->Values, vtkOpenGLBufferObject::TextureBuffer);
+  this->Texture->CreateTextureBuffer(
+    static_cast<unsigned int>(this->Values.size() / 4), 4, VTK_FLOAT, this->Buffer);
+}
+
+void vtkPhongGouraudHelper::FloatBuffer::Activate()
+{
+  if (this->Texture)
+  {
+    this->Texture->Activate();
+  }
+}
+
+void vtkPhongGouraudHelper::FloatBuffer::Deactivate()
+{
+  if (this->Texture)
+  {
+    this->Texture->Deactivate();
+  }
+}
+
+void vtkPhongGouraudHelper::FloatBuffer::Release(vtkWindow* win)
+{
+  if (this->Texture)
+  {
+    this->Texture->ReleaseGraphicsResources(win);
+    this->Buffer->ReleaseGraphicsResources();
+  }
+  this->Free();
+}
+
+void vtkPhongGouraudHelper::FloatBuffer::Free()
+{
+  if (this->Texture)
+  {
+    this->Texture->Delete();
+    this->Buffer->Delete();
+  }
+  this->Texture = nullptr;
+  this->Buffer = nullptr;
+  this->Values.clear();
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPhongGouraudHelper
+ * @brief   private: draws the blocks of a vtkPhongGouraudMapper that share a layout
+ *
+ * Generates the shaders from rendering/glsl, gathers the lights, and keeps three texture buffers:
+ * the lights, the frames (normal and centre) of cells, the field of cells.
+ */
+#ifndef vtkPhongGouraudHelper_h
+#define vtkPhongGouraudHelper_h
+
+#include "LightCollector.h"
+#include "ShaderTemplate.h"
+
+#include "vtkHardwareSelector.h" // the helper's header needs it before itself
+#include "vtkOpenGLCellToVTKCellMap.h"
+#include "vtkStateStorage.h"
+
+#include "vtkCompositeMapperHelper2.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+class vtkOpenGLBufferObject;
+class vtkPhongGouraudMapper;
+class vtkTextureObject;
+
+class vtkPhongGouraudHelper : public vtkCompositeMapperHelper2
+{
+public:
+  static vtkPhongGouraudHelper* New();
+  vtkTypeMacro(vtkPhongGouraudHelper, vtkCompositeMapperHelper2);
+
+  void RenderPiece(vtkRenderer* ren, vtkActor* act) override;
+  void ReleaseGraphicsResources(vtkWindow* win) override;
+
+protected:
+  vtkPhongGouraudHelper() = default;
+  ~vtkPhongGouraudHelper() override;
+
+  using ShaderMap = std::map<vtkShader::Type, vtkShader*>;
+
+  bool GetNeedToRebuildShaders(
+    vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
+  void BuildShaders(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
+  void ReplaceShaderValues(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
+  void ReplaceShaderColor(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
+  void ReplaceShaderNormal(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
+  void ReplaceShaderLight(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
+  void SetPropertyShaderParameters(
+    vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
+  void SetLightingShaderParameters(
+    vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
+
+  bool GetNeedToRebuildBufferObjects(vtkRenderer* ren, vtkActor* act) override;
+  void BuildBufferObjects(vtkRenderer* ren, vtkActor* act) override;
+  void AppendOneBufferObject(vtkRenderer* ren, vtkActor* act, vtkCompositeMapperHelperData* hdata,
+    vtkIdType& flatIndex, std::vector<unsigned char>& colors, std::vector<float>& norms) override;
+  void RenderPieceStart(vtkRenderer* ren, vtkActor* act) override;
+  void RenderPieceFinish(vtkRenderer* ren, vtkActor* act) override;
+
+private:
+  /// A texture that shaders read as a plain array of RGBA floats.
+  struct FloatBuffer
+  {
+    vtkTextureObject* Texture = nullptr;
+    vtkOpenGLBufferObject* Buffer = nullptr;
+    std::vector<float> Values; // what was uploaded last
+
+    void Upload(vtkRenderer* ren, std::vector<float>&& values);
+    void Activate();
+    void Deactivate();
+    void Release(vtkWindow* win);
+    void Free();
+  };
+
+  vtkPhongGouraudMapper* Mapper() const;
+  /// Polygons in an ordinary pass: everything else is drawn by VTK.
+  bool DrawsItself(vtkOpenGLHelper& cellBO, vtkActor* act);
+  bool HasPointNormals();
+  bool UsesScalarColors();
+  /// Everything that decides the text of the shaders.
+  vtkradiometry::ShaderFeatures Needs(vtkRenderer* ren, vtkActor* act);
+  void CollectLights(vtkRenderer* ren, vtkActor* act);
+  void AppendField(vtkCompositeMapperHelperData* hdata, bool newPoints);
+  void BuildCellBuffers(vtkRenderer* ren, vtkActor* act);
+  vtkDataArray* FindField(vtkPolyData* block, bool& ofCells);
+
+  vtkradiometry::PackedLights Lights;
+  vtkradiometry::ShaderFeatures Features; // of the primitive that is being drawn
+  std::map<const vtkOpenGLHelper*, std::string> Signatures;
+  bool Ours = false; // of the primitive that is being drawn
+  bool FieldOfCells = false;
+  bool FieldOfPoints = false;
+  bool ConstantInCells = false; // one normal at all points of each cell
+  // Of blocks in whose points others may share: the field they were drawn with.
+  std::map<vtkDataArray*, vtkDataArray*> FieldOfShared;
+
+  FloatBuffer LightBuffer;
+  FloatBuffer FrameBuffer;
+  FloatBuffer FieldBuffer;
+
+  vtkPhongGouraudHelper(const vtkPhongGouraudHelper&) = delete;
+  void operator=(const vtkPhongGouraudHelper&) = delete;
+};
+
+#endif
+// VTK-HeaderTest-Exclude: vtkPhongGouraudHelper.h
