@@ -4,6 +4,8 @@
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/Light.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
@@ -154,14 +156,12 @@ Vec3 TransformDirection(vtkMatrix4x4* m, const Vec3& d)
 
 } // namespace
 
-CollectedLights CollectFromData(vtkPolyData* data)
+namespace
+{
+
+void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
 {
   namespace names = radiometry::names;
-  CollectedLights result;
-  if (!data)
-  {
-    return result;
-  }
   const LightArray type(data, names::LightType);
   const LightArray intensity(data, names::Intensity);
   const LightArray direction(data, names::Direction);
@@ -232,6 +232,28 @@ CollectedLights CollectFromData(vtkPolyData* data)
     const int frame = static_cast<int>(attached.Value(i, 0.0));
     result.Lights.push_back(light);
     result.Frames.push_back(static_cast<LightFrame>(std::clamp(frame, 0, 2)));
+  }
+}
+
+} // namespace
+
+CollectedLights CollectFromData(vtkDataObject* data)
+{
+  CollectedLights result;
+  if (auto* lights = vtkPolyData::SafeDownCast(data))
+  {
+    CollectFromPolyData(lights, result);
+  }
+  else if (auto* tree = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto it = vtk::TakeSmartPointer(tree->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      if (auto* block = vtkPolyData::SafeDownCast(it->GetCurrentDataObject()))
+      {
+        CollectFromPolyData(block, result);
+      }
+    }
   }
   return result;
 }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+class vtkDataObject;
 class vtkMatrix4x4;
-class vtkPolyData;
 class vtkRenderer;
 
 namespace vtkradiometry
@@ -32,11 +32,12 @@ struct CollectedLights
   std::string Problem; // what was wrong with the arrays; empty: nothing
 };
 
-/// Reads the enabled lights of a polydata in the project's light arrays (docs/arrays.md).
+/// Reads the enabled lights of a polydata, or of all polydata in a tree, in the project's light
+/// arrays (docs/arrays.md).
 ///   One band is grey, three are RGB, any other number is the grey of its mean.
 ///   Lights whose values cannot be drawn (not finite, wrong cone, attenuation without a positive
 ///   term) are left out and the first is named in Problem.
-CollectedLights CollectFromData(vtkPolyData* lights);
+CollectedLights CollectFromData(vtkDataObject* lights);
 
 /// Reads the lights that are switched on in a renderer, with VTK's meaning: a white diffuse surface
 /// that faces a vtkLight of intensity 1 shows 1. `physical` multiplies by pi what the reflection

@@ -413,11 +413,11 @@ void vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren, vtkActor* act)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
   const auto model = static_cast<radiometry::ReflectionModel>(mapper->ReflectionModel);
-  vtkPolyData* data = mapper->LightData;
-  if (!data && ren->GetInformation()->Has(vtkPhongGouraudMapper::LIGHT_DATA()))
+  vtkDataObject* data = mapper->LightData;
+  vtkInformation* shown = ren->GetInformation();
+  if (!data && shown && shown->Has(vtkPhongGouraudMapper::LIGHT_DATA()))
   {
-    data = vtkPolyData::SafeDownCast(
-      ren->GetInformation()->Get(vtkPhongGouraudMapper::LIGHT_DATA()));
+    data = vtkDataObject::SafeDownCast(shown->Get(vtkPhongGouraudMapper::LIGHT_DATA()));
   }
   const vtkradiometry::CollectedLights collected = data
     ? vtkradiometry::CollectFromData(data)

@@ -10,7 +10,7 @@
 #include <algorithm>
 
 vtkStandardNewMacro(vtkPhongGouraudMapper);
-vtkInformationKeyRestrictedMacro(vtkPhongGouraudMapper, LIGHT_DATA, ObjectBase, "vtkPolyData");
+vtkInformationKeyRestrictedMacro(vtkPhongGouraudMapper, LIGHT_DATA, ObjectBase, "vtkDataObject");
 
 vtkPhongGouraudMapper::vtkPhongGouraudMapper() = default;
 vtkPhongGouraudMapper::~vtkPhongGouraudMapper() = default;

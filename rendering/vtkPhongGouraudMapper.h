@@ -137,7 +137,7 @@ public:
   ///@{
   /**
    * The lights, one vertex a light. Null (default): those that the renderer's Information holds
-   * under LIGHT_DATA(), else the renderer's own vtkLights. Changing the polydata's contents moves
+   * under LIGHT_DATA() (a vtkPolyData or a tree of them), else the renderer's own vtkLights. Changing the polydata's contents moves
    * the lights at the next render and rebuilds nothing.
    */
   virtual void SetLightData(vtkPolyData* lights);
