@@ -169,6 +169,11 @@ void CheckWindow(const std::string& file, const ExrBox& box)
 
 } // namespace
 
+bool IsStructuralAttribute(const std::string& name)
+{
+  return StructuralNames().count(name) > 0;
+}
+
 long long CountSamples(int sampling, int min, int max)
 {
   const auto floorDivide = [](long long a, long long b) {
@@ -220,7 +225,7 @@ Imf::Header MakeHeader(const std::string& file, const ExrPart& part, bool named)
   for (const auto& [name, value] : part.Attributes)
   {
     CheckName(file, "attribute", name);
-    if (StructuralNames().count(name))
+    if (IsStructuralAttribute(name))
     {
       throw FileError(file, "attribute '" + name + "' belongs to the format: choose another name");
     }
@@ -262,7 +267,7 @@ ExrPart ReadHeader(const Imf::Header& header)
   for (auto a = header.begin(); a != header.end(); ++a)
   {
     ExrAttribute value;
-    if (StructuralNames().count(a.name()))
+    if (IsStructuralAttribute(a.name()))
     {
       continue;
     }

@@ -71,6 +71,10 @@ using ExrAttribute = std::variant<int, float, double, std::string, std::array<fl
   std::array<float, 3>, std::array<double, 3>, std::vector<float>, std::vector<std::string>,
   ExrChromaticities>;
 
+/// True for the names that the format keeps for itself (channels, dataWindow, ...): no attribute of
+/// ExrPart::Attributes may have one.
+bool IsStructuralAttribute(const std::string& name);
+
 /// One channel: its pixels either belong to the caller (writing) or to the channel (reading).
 /// Sample (i, j), counted from the upper left of the data window in steps of the sampling, is at
 /// Data[i * XStride + j * YStride], strides in samples; a picture stored bottom-up has a negative

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOpenEXRWriter.h"
+
+#include "io/ExrWriter.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedIntArray.h"
+
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+namespace io = radiometry::io;
+
+namespace
+{
+
+/// Field data of more values than this are data and no description.
+constexpr vtkIdType longestAttribute = 4096;
+
+bool IsReal(vtkDataArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+/// A copy with the same name in an array of type T.
+template <typename T>
+vtkSmartPointer<vtkDataArray> CopyAs(vtkDataArray* array, double divisor)
+{
+  vtkSmartPointer<T> copy = vtkSmartPointer<T>::New();
+  copy->DeepCopy(array);
+  copy->SetName(array->GetName());
+  for (vtkIdType i = 0; divisor != 1.0 && i < copy->GetNumberOfValues(); ++i)
+  {
+    copy->SetValue(i, static_cast<typename T::ValueType>(copy->GetValue(i) / divisor));
+  }
+  return copy;
+}
+
+bool FitsUInt(vtkDataArray* array)
+{
+  double range[2];
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    array->GetRange(range, c);
+    if (range[0] < 0.0 || range[1] > std::numeric_limits<std::uint32_t>::max())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::string ComponentSuffix(vtkDataArray* array, int component, bool normals)
+{
+  if (normals)
+  {
+    return std::string(".") + "XYZ"[component];
+  }
+  if (const char* name = array->GetComponentName(component))
+  {
+    return std::string(".") + name;
+  }
+  return array->GetNumberOfComponents() == 3 ? std::string(".") + "RGB"[component]
+                                             : "." + std::to_string(component);
+}
+
+std::string Numbers(vtkDataArray* array)
+{
+  std::string text;
+  char number[40];
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples() * array->GetNumberOfComponents(); ++i)
+  {
+    const int n = array->GetNumberOfComponents();
+    std::snprintf(number, sizeof number, "%.17g",
+      array->GetComponent(i / n, static_cast<int>(i % n)));
+    text += (i ? " " : "") + std::string(number);
+  }
+  return text;
+}
+
+/// One array of field data as an attribute; false where it has no value.
+bool Describe(vtkAbstractArray* array, io::ExrAttribute& out)
+{
+  const vtkIdType n = array->GetNumberOfValues();
+  if (n < 1 || n > longestAttribute)
+  {
+    return false;
+  }
+  if (auto* strings = vtkStringArray::SafeDownCast(array))
+  {
+    std::vector<std::string> values;
+    for (vtkIdType i = 0; i < n; ++i)
+    {
+      values.push_back(strings->GetValue(i));
+    }
+    out = n == 1 ? io::ExrAttribute(values[0]) : io::ExrAttribute(values);
+    return true;
+  }
+  auto* data = vtkDataArray::SafeDownCast(array);
+  if (!data)
+  {
+    return false;
+  }
+  const auto value = [&](vtkIdType i) {
+    const int c = data->GetNumberOfComponents();
+    return data->GetComponent(i / c, static_cast<int>(i % c));
+  };
+  const int type = data->GetDataType();
+  if (std::string(array->GetName()) == "chromaticities" && n == 8)
+  {
+    io::ExrChromaticities xy;
+    for (int i = 0; i < 8; ++i)
+    {
+      xy[i] = static_cast<float>(value(i));
+    }
+    out = xy;
+  }
+  else if (n == 1 && type == VTK_FLOAT)
+  {
+    out = static_cast<float>(value(0));
+  }
+  else if (n == 1 && type == VTK_INT)
+  {
+    out = static_cast<int>(value(0));
+  }
+  else if (n == 1)
+  {
+    out = value(0);
+  }
+  else if (n == 2 && type == VTK_FLOAT)
+  {
+    out = std::array<float, 2>{ static_cast<float>(value(0)), static_cast<float>(value(1)) };
+  }
+  else if (n == 3 && type == VTK_FLOAT)
+  {
+    out = std::array<float, 3>{ static_cast<float>(value(0)), static_cast<float>(value(1)),
+      static_cast<float>(value(2)) };
+  }
+  else if (n == 3 && type == VTK_DOUBLE)
+  {
+    out = std::array<double, 3>{ value(0), value(1), value(2) };
+  }
+  else if (type == VTK_FLOAT)
+  {
+    std::vector<float> values;
+    for (vtkIdType i = 0; i < n; ++i)
+    {
+      values.push_back(static_cast<float>(value(i)));
+    }
+    out = values;
+  }
+  else
+  {
+    out = Numbers(data);
+  }
+  return true;
+}
+
+} // namespace
+
+/// Gathers the part to write, and keeps what had to be converted for it.
+struct vtkOpenEXRWriter::Assembly
+{
+  vtkOpenEXRWriter* Self;
+  io::ExrPart Part;
+  std::vector<vtkSmartPointer<vtkDataArray>> Kept;
+
+  void AddArray(vtkDataArray* array, bool picture);
+  void AddAttributes(vtkImageData* image);
+};
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::Assembly::AddArray(vtkDataArray* array, bool picture)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  const int components = array->GetNumberOfComponents();
+  vtkSmartPointer<vtkDataArray> data = array;
+  io::ExrPixelType type =
+    this->Self->PixelType == Half ? io::ExrPixelType::Half : io::ExrPixelType::Float;
+  const bool bytes = array->GetDataType() == VTK_UNSIGNED_CHAR;
+  const bool shorts = array->GetDataType() == VTK_UNSIGNED_SHORT;
+  if (picture && (bytes || shorts))
+  {
+    data = CopyAs<vtkDoubleArray>(array, bytes ? 255.0 : 65535.0);
+  }
+  else if (!IsReal(array) && FitsUInt(array))
+  {
+    data = CopyAs<vtkUnsignedIntArray>(array, 1.0);
+    type = io::ExrPixelType::UInt;
+  }
+  else if (!IsReal(array) || !array->HasStandardMemoryLayout())
+  {
+    data = CopyAs<vtkDoubleArray>(array, 1.0);
+    // 11 bits would merge the numbers of things.
+    type = IsReal(array) ? type : io::ExrPixelType::Float;
+  }
+  const auto chosen = this->Self->ArrayPixelTypes.find(name);
+  if (chosen != this->Self->ArrayPixelTypes.end())
+  {
+    type = static_cast<io::ExrPixelType>(chosen->second);
+  }
+  this->Kept.push_back(data);
+
+  const long long width = this->Part.DataWindow.Width();
+  const long long height = this->Part.DataWindow.Height();
+  const bool normals = (name == "N" || name == "Normals") && components == 3;
+  for (int c = 0; c < components; ++c)
+  {
+    io::ExrChannel channel;
+    channel.Name = picture
+      ? std::string(1, "RGBA"[c])
+      : (components == 1 ? name : (normals ? "N" : name) + ComponentSuffix(array, c, normals));
+    channel.Type = type;
+    channel.XStride = components;
+    channel.YStride = -components * width; // the last row of VTK is the first of OpenEXR
+    const long long first = components * width * (height - 1) + c;
+    switch (data->GetDataType())
+    {
+      case VTK_FLOAT:
+        channel.Kind = io::ExrChannel::Memory::Float32;
+        channel.Data = static_cast<const float*>(data->GetVoidPointer(0)) + first;
+        break;
+      case VTK_DOUBLE:
+        channel.Kind = io::ExrChannel::Memory::Float64;
+        channel.Data = static_cast<const double*>(data->GetVoidPointer(0)) + first;
+        break;
+      default:
+        channel.Kind = io::ExrChannel::Memory::UInt32;
+        channel.Data = static_cast<const std::uint32_t*>(data->GetVoidPointer(0)) + first;
+    }
+    this->Part.Channels.push_back(channel);
+  }
+  vtkInformation* information = array->HasInformation() ? array->GetInformation() : nullptr;
+  if (information && information->Has(vtkDataArray::UNITS_LABEL()))
+  {
+    this->Part.Attributes[(picture ? std::string("RGB") : (normals ? "N" : name)) + ".units"] =
+      std::string(information->Get(vtkDataArray::UNITS_LABEL()));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::Assembly::AddAttributes(vtkImageData* image)
+{
+  auto& attributes = this->Part.Attributes;
+  if (this->Part.Find("R") && this->Part.Find("G") && this->Part.Find("B"))
+  {
+    io::ExrChromaticities xy;
+    std::copy(this->Self->Chromaticities, this->Self->Chromaticities + 8, xy.begin());
+    attributes["chromaticities"] = xy;
+  }
+  vtkFieldData* field = image->GetFieldData();
+  for (int i = 0; this->Self->WriteFieldData && i < field->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = field->GetAbstractArray(i);
+    io::ExrAttribute value;
+    if (array->GetName() && *array->GetName() &&
+      !io::IsStructuralAttribute(array->GetName()) && Describe(array, value))
+    {
+      attributes[array->GetName()] = value;
+    }
+  }
+  if (this->Self->WhiteLuminance > 0.0)
+  {
+    attributes["whiteLuminance"] = static_cast<float>(this->Self->WhiteLuminance);
+  }
+  if (this->Self->AdoptedNeutral[1] > 0.0)
+  {
+    attributes["adoptedNeutral"] =
+      std::array<float, 2>{ static_cast<float>(this->Self->AdoptedNeutral[0]),
+        static_cast<float>(this->Self->AdoptedNeutral[1]) };
+  }
+  for (const auto& [name, value] : this->Self->TextAttributes)
+  {
+    attributes[name] = value;
+  }
+  for (const auto& [name, value] : this->Self->NumberAttributes)
+  {
+    attributes[name] = value;
+  }
+}
+
+vtkStandardNewMacro(vtkOpenEXRWriter);
+
+//------------------------------------------------------------------------------
+vtkOpenEXRWriter::vtkOpenEXRWriter()
+{
+  const io::ExrChromaticities xy = io::Rec709Chromaticities();
+  // By way of text: 0.64f as a double is 0.63999998.
+  for (int i = 0; i < 8; ++i)
+  {
+    char number[16];
+    std::snprintf(number, sizeof number, "%.4f", xy[i]);
+    this->Chromaticities[i] = std::stod(number);
+  }
+}
+
+vtkOpenEXRWriter::~vtkOpenEXRWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+//------------------------------------------------------------------------------
+int vtkOpenEXRWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+vtkImageData* vtkOpenEXRWriter::GetImageInput()
+{
+  return vtkImageData::SafeDownCast(this->GetInput());
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::SetArrayPixelType(const char* array, int type)
+{
+  if (!array || type < Half || type > UInt)
+  {
+    vtkErrorMacro("SetArrayPixelType: type " << type << ": expected Half, Float or UInt");
+    return;
+  }
+  this->ArrayPixelTypes[array] = type;
+  this->Modified();
+}
+
+void vtkOpenEXRWriter::ClearArrayPixelTypes()
+{
+  this->ArrayPixelTypes.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::AddAttribute(const char* name, const char* value)
+{
+  if (name && value)
+  {
+    this->NumberAttributes.erase(name);
+    this->TextAttributes[name] = value;
+    this->Modified();
+  }
+}
+
+void vtkOpenEXRWriter::AddAttribute(const char* name, double value)
+{
+  if (name)
+  {
+    this->TextAttributes.erase(name);
+    this->NumberAttributes[name] = value;
+    this->Modified();
+  }
+}
+
+void vtkOpenEXRWriter::ClearAttributes()
+{
+  this->TextAttributes.clear();
+  this->NumberAttributes.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::WriteData()
+{
+  vtkImageData* image = this->GetImageInput();
+  int dimensions[3] = { 0, 0, 0 };
+  if (image)
+  {
+    image->GetDimensions(dimensions);
+  }
+  if (dimensions[0] < 1 || dimensions[1] < 1 || dimensions[2] != 1)
+  {
+    vtkErrorMacro("an image of " << dimensions[0] << " x " << dimensions[1] << " x "
+                                 << dimensions[2] << " points: expected one slice in x and y");
+    this->SetErrorCode(vtkErrorCode::FileFormatError);
+    return;
+  }
+  Assembly assembly{ this, {}, {} };
+  io::ExrPart& part = assembly.Part;
+  const int* origin = this->DataWindowOrigin;
+  part.DataWindow = { origin[0], origin[1], origin[0] + dimensions[0] - 1,
+    origin[1] + dimensions[1] - 1 };
+  part.DisplayWindow = { this->DisplayWindow[0], this->DisplayWindow[1], this->DisplayWindow[2],
+    this->DisplayWindow[3] };
+  part.Compression = static_cast<io::ExrCompression>(this->Compression);
+  part.TileWidth = part.TileHeight = this->TileSize;
+  double spacing[3];
+  image->GetSpacing(spacing);
+  part.PixelAspectRatio =
+    spacing[0] > 0.0 && spacing[1] > 0.0 ? static_cast<float>(spacing[0] / spacing[1]) : 1.0f;
+
+  vtkPointData* points = image->GetPointData();
+  const auto isColour = [](vtkDataArray* array) {
+    return array && (array->GetNumberOfComponents() == 3 || array->GetNumberOfComponents() == 4);
+  };
+  vtkDataArray* picture = points->GetArray("RGB");
+  for (vtkDataArray* candidate : { points->GetArray("RGBA"), points->GetScalars() })
+  {
+    picture = isColour(picture) ? picture : candidate;
+  }
+  picture = isColour(picture) ? picture : nullptr;
+  for (int i = 0; i < points->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = points->GetArray(i))
+    {
+      assembly.AddArray(array, array == picture);
+    }
+  }
+  assembly.AddAttributes(image);
+  try
+  {
+    io::ExrWriteOptions options;
+    options.KeepNonFinite = this->KeepNonFinite;
+    io::WriteExr(this->FileName ? this->FileName : "", { part }, options);
+  }
+  catch (const io::FileError& e)
+  {
+    vtkErrorMacro(<< e.what());
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
+     << indent << "PixelType: " << this->PixelType << "\n"
+     << indent << "Compression: " << this->Compression << "\n"
+     << indent << "TileSize: " << this->TileSize << "\n"
+     << indent << "WhiteLuminance: " << this->WhiteLuminance << "\n"
+     << indent << "WriteFieldData: " << this->WriteFieldData << "\n"
+     << indent << "KeepNonFinite: " << this->KeepNonFinite << "\n";
+}
