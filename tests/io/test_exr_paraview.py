@@ -46,7 +46,7 @@ check((after["RGB"] == before["RGB"].astype(np.float32)).all(), "the colours")
 data = reader.GetClientSideObject().GetOutputDataObject(0)
 check(data.GetFieldData().GetAbstractArray("RTData.units").GetValue(0) == "W/m^2", "attributes")
 
-shown = simple.OpenColorIOTransform(Input=reader, Colours=["POINTS", "RGB"], Exposure=1.0,
+shown = simple.OpenColorIOTransform(Input=reader, Colors=["POINTS", "RGB"], Exposure=1.0,
                                     Display="sRGB", View="Plain")
 encoded = points(shown)["RGB"]
 linear = 2 * after["RGB"].astype(float)
