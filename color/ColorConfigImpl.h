@@ -21,7 +21,7 @@ struct ColorTransform::Impl
 {
   OCIO::ConstProcessorRcPtr Processor;
   OCIO::ConstCPUProcessorRcPtr Cpu;
-  std::string Source;
+  TransformOptions Used;
   bool PassesDataThrough = false;
 };
 

@@ -114,17 +114,18 @@ void AppendLook(
 }
 
 /// Appends the way to the display; false where the view shows data as it is.
-bool AppendView(const ColorConfig& config, const TransformOptions& options,
-  const std::string& space, OCIO::GroupTransformRcPtr group)
+bool AppendView(const ColorConfig& config, const std::string& space, TransformOptions& used,
+  OCIO::GroupTransformRcPtr group)
 {
   const auto& ocio = config.Handle().Config;
-  const std::string display =
-    options.Display.empty() ? config.DefaultDisplay() : options.Display;
+  std::string& display = used.Display;
+  display = display.empty() ? config.DefaultDisplay() : display;
   if (ocio->getNumViews(display.c_str()) == 0)
   {
     Unknown("display", display, config, config.Displays());
   }
-  const std::string view = options.View.empty() ? config.DefaultView(display) : options.View;
+  std::string& view = used.View;
+  view = view.empty() ? config.DefaultView(display) : view;
   const char* viewSpace = ocio->getDisplayViewColorSpaceName(display.c_str(), view.c_str());
   if (!Contains(config.Views(display), view) && !(viewSpace && *viewSpace))
   {
@@ -164,9 +165,11 @@ bool AppendTarget(const ColorConfig& config, const std::string& target, const st
 
 /// The whole transform; an empty group where data is passed through.
 OCIO::GroupTransformRcPtr Assemble(
-  const ColorConfig& config, const TransformOptions& options, std::string& source)
+  const ColorConfig& config, const TransformOptions& options, TransformOptions& used)
 {
   auto group = OCIO::GroupTransform::Create();
+  used = options;
+  std::string& source = used.SourceColorSpace;
   const std::string space = AppendSource(config, options, group, source);
   bool colours = !space.empty();
   if (colours)
@@ -177,7 +180,7 @@ OCIO::GroupTransformRcPtr Assemble(
   // Names are checked even where data is passed through.
   const std::string any = colours ? space : source;
   colours = (options.TargetColorSpace.empty()
-                ? AppendView(config, options, any, group)
+                ? AppendView(config, any, used, group)
                 : AppendTarget(config, options.TargetColorSpace, any, group)) &&
     colours;
   return colours ? group : OCIO::GroupTransform::Create();
@@ -200,7 +203,7 @@ ColorTransform::ColorTransform(const ColorConfig& config, const TransformOptions
 {
   try
   {
-    auto group = Assemble(config, options, this->Data->Source);
+    auto group = Assemble(config, options, this->Data->Used);
     this->Data->PassesDataThrough = group->getNumTransforms() == 0;
     this->Data->Processor = config.Handle().Config->getProcessor(group);
     this->Data->Cpu = this->Data->Processor->getOptimizedCPUProcessor(Optimization);
@@ -217,9 +220,9 @@ ColorTransform::ColorTransform(const ColorConfig& config, const TransformOptions
 
 ColorTransform::~ColorTransform() = default;
 
-const std::string& ColorTransform::SourceColorSpace() const
+const TransformOptions& ColorTransform::Used() const
 {
-  return this->Data->Source;
+  return this->Data->Used;
 }
 
 bool ColorTransform::PassesDataThrough() const

@@ -44,8 +44,10 @@ public:
   ColorTransform(const ColorTransform&) = delete;
   ColorTransform& operator=(const ColorTransform&) = delete;
 
-  /// The source colour space that an empty name came to.
-  const std::string& SourceColorSpace() const;
+  /// The options with every empty name replaced by what it came to (Display and View stay empty
+  /// where a target colour space was asked for).
+  const TransformOptions& Used() const;
+  const std::string& SourceColorSpace() const { return this->Used().SourceColorSpace; }
   /// True where source or view is data, so that Apply changes nothing.
   bool PassesDataThrough() const;
 

@@ -149,6 +149,7 @@ int vtkOpenColorIOImageFilter::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->ShallowCopy(input);
+  this->UsedConfig = this->UsedSourceColorSpace = this->UsedDisplay = this->UsedView = "";
 
   vtkDataArray* colours = this->GetInputArrayToProcess(0, inputs);
   for (const char* name : { "RGB", "RGBA" })
@@ -174,8 +175,8 @@ int vtkOpenColorIOImageFilter::RequestData(
   {
     const color::TransformOptions options{ this->SourceColorSpace, this->TargetColorSpace,
       this->Display, this->View, this->Look, this->Exposure };
-    const color::ColorTransform transform(
-      color::ColorConfig::Open(this->ConfigFileName), options);
+    const color::ColorConfig config = color::ColorConfig::Open(this->ConfigFileName);
+    const color::ColorTransform transform(config, options);
     const vtkSmartPointer<vtkFloatArray> converted = AsFloat(colours);
     Convert(transform, converted, std::max(0, this->NumberOfThreads));
     vtkSmartPointer<vtkDataArray> result = converted;
@@ -184,6 +185,10 @@ int vtkOpenColorIOImageFilter::RequestData(
       result = AsBytes(converted);
     }
     output->GetPointData()->SetScalars(result);
+    this->UsedConfig = config.Origin();
+    this->UsedSourceColorSpace = transform.Used().SourceColorSpace;
+    this->UsedDisplay = transform.Used().Display;
+    this->UsedView = transform.Used().View;
   }
   catch (const color::ColorError& e)
   {

@@ -108,6 +108,17 @@ public:
 
   ///@{
   /**
+   * What the last update used: where the config came from (a file name or "builtin") and the names
+   * that empty properties came to. Empty before the first and after a failure.
+   */
+  std::string GetUsedConfig() const { return this->UsedConfig; }
+  std::string GetUsedSourceColorSpace() const { return this->UsedSourceColorSpace; }
+  std::string GetUsedDisplay() const { return this->UsedDisplay; }
+  std::string GetUsedView() const { return this->UsedView; }
+  ///@}
+
+  ///@{
+  /**
    * What the config of ConfigFileName has, with commas between; empty (and an error event) where it
    * cannot be read.
    */
@@ -139,6 +150,11 @@ private:
   double Exposure = 0.0;
   int OutputScalarType = VTK_FLOAT;
   int NumberOfThreads = 0;
+
+  std::string UsedConfig;
+  std::string UsedSourceColorSpace;
+  std::string UsedDisplay;
+  std::string UsedView;
 };
 
 #endif

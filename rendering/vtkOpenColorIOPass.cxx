@@ -13,6 +13,7 @@
 #include "vtkOpenGLRenderer.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
+#include "vtkProp.h"
 #include "vtkRenderState.h"
 #include "vtkShaderProgram.h"
 #include "vtkSmartPointer.h"
@@ -136,12 +137,16 @@ struct vtkOpenColorIOPass::Internals
   std::vector<vtkSmartPointer<vtkTextureObject>> Tables;
   std::string Names; // what the above was built from
   std::string Error;
+  std::vector<vtkProp*> Scene;       // of this render, converted
+  std::vector<vtkProp*> Annotations; // of this render, drawn in the display's values
 
   void AllocateTarget(vtkOpenGLRenderWindow* window, int width, int height);
   void RenderDelegate(vtkOpenColorIOPass* self, const vtkRenderState* s, const Area& area);
   void Rebuild(vtkOpenColorIOPass* self, vtkOpenGLRenderWindow* window);
   bool ReadyQuad(vtkOpenGLRenderWindow* window);
   void Draw(vtkOpenColorIOPass* self, vtkOpenGLRenderWindow* window, const Area& area);
+  void SortProps(const vtkRenderState* s);
+  void DrawAnnotations(vtkOpenColorIOPass* self, vtkRenderer* renderer, const Area& area);
 };
 
 vtkStandardNewMacro(vtkOpenColorIOPass);
@@ -220,7 +225,8 @@ void vtkOpenColorIOPass::Internals::RenderDelegate(
   this->AllocateTarget(window, area.Width, area.Height);
 
   vtkRenderState inner(renderer);
-  inner.SetPropArrayAndCount(s->GetPropArray(), s->GetPropArrayCount());
+  this->SortProps(s);
+  inner.SetPropArrayAndCount(this->Scene.data(), static_cast<int>(this->Scene.size()));
   inner.SetRequiredKeys(s->GetRequiredKeys());
   inner.SetFrameBuffer(this->Target);
 
@@ -373,6 +379,39 @@ void vtkOpenColorIOPass::Internals::Draw(
 }
 
 //------------------------------------------------------------------------------
+void vtkOpenColorIOPass::Internals::SortProps(const vtkRenderState* s)
+{
+  this->Scene.clear();
+  this->Annotations.clear();
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    vtkProp* prop = s->GetPropArray()[i];
+    const bool flat = prop->IsA("vtkActor2D") || prop->IsA("vtkContextActor");
+    (flat ? this->Annotations : this->Scene).push_back(prop);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenColorIOPass::Internals::DrawAnnotations(
+  vtkOpenColorIOPass* self, vtkRenderer* renderer, const Area& area)
+{
+  if (this->Annotations.empty())
+  {
+    return;
+  }
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglScissor scissor(state);
+  state->vtkglViewport(area.X, area.Y, area.Width, area.Height);
+  state->vtkglScissor(area.X, area.Y, area.Width, area.Height);
+  for (vtkProp* prop : this->Annotations)
+  {
+    self->NumberOfRenderedProps += prop->RenderOverlay(renderer);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkOpenColorIOPass::Render(const vtkRenderState* s)
 {
   vtkOpenGLClearErrorMacro();
@@ -408,6 +447,7 @@ void vtkOpenColorIOPass::Render(const vtkRenderState* s)
   }
   this->Data->Rebuild(this, window);
   this->Data->Draw(this, window, area);
+  this->Data->DrawAnnotations(this, renderer, area);
   vtkOpenGLCheckErrorMacro("failed after the display transform");
 }
 

@@ -15,7 +15,8 @@
  *           linear picture is shown as it is
  *
  * Pixels that nothing was drawn on (alpha 0) keep the renderer's background exactly: flat, gradient
- * or textured, it is in the display's values already. Any pass can be the delegate: one with a
+ * or textured, it is in the display's values already. So are texts, legends and charts
+ * (vtkActor2D, vtkContextActor): they are drawn over the converted picture. Any pass can be the delegate: one with a
  * camera pass of its own (vtkRenderStepsPass, vtkLinearFloatPass) where this is the renderer's
  * pass, or one without (vtkPVDefaultPass) under a camera pass. During hardware selection the
  * delegate renders directly. Not to be stacked on vtkToneMappingPass.

@@ -4,11 +4,15 @@
 #include "vtkOpenColorIOPass.h"
 
 #include "vtkActor.h"
+#include "vtkActor2D.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
+#include "vtkCameraPass.h"
 #include "vtkImageProcessingPass.h"
+#include "vtkLightsPass.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpaquePass.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderUtilities.h"
@@ -19,14 +23,19 @@
 #include "vtkPixelBufferObject.h"
 #include "vtkPlaneSource.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkPolyDataMapper2D.h"
 #include "vtkProperty.h"
+#include "vtkProperty2D.h"
+#include "vtkRenderPassCollection.h"
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkSequencePass.h"
 #include "vtkShaderProgram.h"
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
+#include "vtkTranslucentPass.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtk_glew.h"
 
@@ -502,6 +511,51 @@ TEST_F(Pass, TranslucentSurfacesAreMixedWithTheBackgroundAsShown)
   {
     EXPECT_NEAR(pixel[c], 255 * (0.5 * srgb[c] + 0.5 * background[c]), 1.01);
   }
+}
+
+TEST_F(Pass, UnderACameraPassAsInParaView)
+{
+  this->MakeScene(1.0);
+  this->Renderer->SetBackground(0.2, 0.4, 0.6);
+  vtkNew<vtkRenderPassCollection> passes;
+  vtkNew<vtkLightsPass> lights;
+  vtkNew<vtkOpaquePass> opaque;
+  vtkNew<vtkTranslucentPass> translucent;
+  passes->AddItem(lights);
+  passes->AddItem(opaque);
+  passes->AddItem(translucent);
+  vtkNew<vtkSequencePass> sequence;
+  sequence->SetPasses(passes);
+  this->Display->SetDelegatePass(sequence);
+  vtkNew<vtkCameraPass> camera;
+  camera->SetDelegatePass(this->Display);
+  this->Renderer->SetPass(camera);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    this->Window->Render();
+    EXPECT_EQ(this->Pixel(3 * size / 4, size / 2), (std::array<int, 3>{ 51, 102, 153 }));
+    EXPECT_EQ(this->Pixel(size / 4, size / 2), (std::array<int, 3>{ 188, 137, 99 }));
+    EXPECT_LT(this->Renderer->GetZ(size / 4, size / 2), 1.0);
+  }
+}
+
+TEST_F(Pass, AnnotationsKeepTheirColours)
+{
+  this->MakeScene(1.0);
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(0, 0, 0);
+  plane->SetPoint1(size / 2, 0, 0);
+  plane->SetPoint2(0, size / 4, 0);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputConnection(plane->GetOutputPort());
+  vtkNew<vtkActor2D> legend;
+  legend->SetMapper(mapper);
+  legend->GetProperty()->SetColor(0.2, 0.6, 0.4);
+  this->Renderer->AddActor2D(legend);
+  this->Display->SetView("ACES");
+  this->Display->SetExposure(2);
+  this->Window->Render();
+  EXPECT_EQ(this->Pixel(size / 4, size / 8), (std::array<int, 3>{ 51, 153, 102 }));
 }
 
 TEST_F(Pass, ABrokenConfigIsToldOnceAndTheLinearPictureShown)

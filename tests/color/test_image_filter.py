@@ -115,6 +115,10 @@ check(errors == 0, "builtin does not look at $OCIO")
 del os.environ["OCIO"]
 
 f = vtkOpenColorIOImageFilter()
+f.SetInputData(image(linear))
+f.Update()
+check((f.GetUsedConfig(), f.GetUsedSourceColorSpace(), f.GetUsedDisplay(), f.GetUsedView())
+      == ("builtin", "Linear Rec.709", "sRGB", "Plain"), "what was used is told")
 check(f.GetConfigDisplays() == "sRGB, Rec.1886, Display P3", "displays are listed")
 check(f.GetConfigViews("sRGB") == "Plain, ACES, Raw", "views are listed")
 
