@@ -10,6 +10,7 @@
 #include "radiometry/scene/Scene.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What a simulating filter is to compute: made by vtkRadiometricFilter, read by its subclasses.
@@ -38,5 +39,7 @@ struct vtkRadiometricFilter::Result
   std::vector<Quantity> Points; // as Job::Points
   radiometry::ConvergenceRecord Convergence;
   std::vector<radiometry::EffectDecision> Effects; // by Effect
+  std::vector<std::pair<std::string, double>> ErrorParts; // mean over the surface, W/m^2
   std::string Outcome;
+  std::string Method; // and why
 };

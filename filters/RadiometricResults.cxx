@@ -181,6 +181,10 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   AddStrings(data, "RadiometryVersion", { VTKRADIOMETRY_VERSION });
   AddStrings(data, "RadiometryOptions", { this->Filter + ": " + this->Options });
   AddStrings(data, "RadiometryOutcome", { result.Outcome });
+  if (!result.Method.empty())
+  {
+    AddStrings(data, "RadiometryMethod", { result.Method });
+  }
 }
 
 void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) const
@@ -191,15 +195,25 @@ void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) con
   auto* bound = AddColumn<vtkDoubleArray>(table, "Bound");
   auto* unit = AddColumn<vtkStringArray>(table, "Unit");
   auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
+  const auto add = [&](const std::string& name, const char* what, const std::string& reason,
+                     double value, double spent) {
+    effect->InsertNextValue(name);
+    decision->InsertNextValue(what);
+    why->InsertNextValue(reason);
+    bound->InsertNextValue(value);
+    unit->InsertNextValue("W/m^2");
+    seconds->InsertNextValue(spent);
+  };
   for (std::size_t k = 0; k < result.Effects.size(); ++k)
   {
     const radiometry::EffectDecision& d = result.Effects[k];
-    effect->InsertNextValue(radiometry::EffectName(static_cast<radiometry::Effect>(k)));
-    decision->InsertNextValue(d.Simulated ? "simulated" : (d.Present ? "left out" : "not needed"));
-    why->InsertNextValue(d.Why);
-    bound->InsertNextValue(d.Bound);
-    unit->InsertNextValue("W/m^2");
-    seconds->InsertNextValue(d.Seconds);
+    add(radiometry::EffectName(static_cast<radiometry::Effect>(k)),
+      d.Simulated ? "simulated" : (d.Present ? "left out" : "not needed"), d.Why, d.Bound,
+      d.Seconds);
+  }
+  for (const auto& [name, value] : result.ErrorParts)
+  {
+    add(name, "estimated", "its part of IrradianceError, averaged over the surface", value, 0.0);
   }
 }
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRadiosityFilter.h"
+
+#include "RadiometricJob.h"
+#include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/Units.h"
+#include "radiometry/solver/PlannedRadiosity.h"
+
+#include "vtkObjectFactory.h"
+#include "vtksys/SystemInformation.hxx"
+
+#include <utility>
+
+vtkStandardNewMacro(vtkRadiosityFilter);
+
+namespace
+{
+
+namespace names = radiometry::names;
+using Quantity = vtkRadiometricFilter::Result::Quantity;
+
+/// Irradiance, radiosity and radiance of one side.
+void AddQuantities(int side, radiometry::FieldValues& irradiance, radiometry::FieldValues& radiosity,
+  std::vector<Quantity>& quantities)
+{
+  if (irradiance.Values.empty())
+  {
+    return;
+  }
+  const std::string back = side == 1 ? names::BackSuffix : "";
+  Quantity radiance{ names::Radiance + back, "W/(m^2 sr)", radiosity.Values, radiosity.Errors };
+  for (std::vector<double>* values : { &radiance.Values, &radiance.Errors })
+  {
+    for (double& value : *values)
+    {
+      value /= radiometry::units::Pi;
+    }
+  }
+  quantities.push_back({ names::Irradiance + back, "W/m^2", std::move(irradiance.Values),
+    std::move(irradiance.Errors) });
+  quantities.push_back({ names::Radiosity + back, "W/m^2", std::move(radiosity.Values),
+    std::move(radiosity.Errors) });
+  quantities.push_back(std::move(radiance));
+}
+
+} // namespace
+
+void vtkRadiosityFilter::Simulate(Job& job, Result& result)
+{
+  radiometry::RadiosityOptions options;
+  options.RelativeTolerance = this->RelativeTolerance;
+  options.AbsoluteTolerance = this->AbsoluteTolerance;
+  options.TimeBudget = this->TimeBudget;
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  if (this->MemoryLimit > 0.0)
+  {
+    options.MemoryLimit = static_cast<std::size_t>(this->MemoryLimit * mebibyte);
+  }
+  else
+  {
+    vtksys::SystemInformation machine;
+    machine.QueryMemory();
+    options.MemoryLimit = static_cast<std::size_t>(0.5 * mebibyte) * machine.GetTotalPhysicalMemory();
+  }
+  options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);
+  options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
+  options.Threads = this->NumberOfThreads;
+
+  radiometry::PlannedRadiosity computed = radiometry::SimulatePlannedRadiosity(
+    job.Scene, job.Points, job.WantCells, job.Switches, options, job.Progress);
+  for (int side = 0; side < 2; ++side)
+  {
+    if (job.WantCells)
+    {
+      AddQuantities(side, computed.Cells.Irradiance[side], computed.Cells.Radiosity[side],
+        result.Cells);
+    }
+    AddQuantities(
+      side, computed.PointIrradiance[side], computed.PointRadiosity[side], result.Points);
+  }
+  const radiometry::RadiosityErrorBudget& budget = computed.Cells.Budget;
+  result.ErrorParts = { { "Error: direct light", budget.Direct },
+    { "Error: form factors", budget.FormFactors }, { "Error: visibility", budget.Visibility },
+    { "Error: discretisation", budget.Discretisation }, { "Error: solver", budget.Solver } };
+  result.Convergence = std::move(computed.Cells.Convergence);
+  result.Effects = std::move(computed.Effects);
+  result.Outcome = computed.Cells.Outcome;
+  result.Method = computed.Cells.MethodWhy;
+}
+
+void vtkRadiosityFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  static const char* const methods[] = { "Auto", "Dense", "Hierarchical", "MonteCarlo" };
+  os << indent << "Method: " << methods[this->Method] << '\n';
+}

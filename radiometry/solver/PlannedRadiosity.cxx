@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/solver/PlannedRadiosity.h"
+
+#include <algorithm>
+
+namespace radiometry
+{
+namespace
+{
+
+/// B = M + rho E at points, with the optics of the cells that meet there averaged.
+FieldValues RadiosityAt(const Scene& scene, const std::vector<SurfacePoint>& points, int side,
+  bool emission, const FieldValues& irradiance)
+{
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  const std::vector<double>& reflectance = scene.Optics.DiffuseReflectance[side];
+  const std::vector<double>& emitted = scene.Optics.EmittedExitance[side];
+  FieldValues out;
+  out.Values.assign(points.size() * bands, 0.0);
+  out.Errors.assign(points.size() * bands, 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    std::vector<std::int32_t> around = points[i].Around;
+    if (around.empty() && points[i].Triangle >= 0)
+    {
+      around.push_back(points[i].Triangle);
+    }
+    const double share = around.empty() ? 0.0 : 1.0 / static_cast<double>(around.size());
+    for (std::size_t b = 0; b < bands; ++b)
+    {
+      double rho = 0.0;
+      double m = 0.0;
+      for (const std::int32_t t : around)
+      {
+        const std::size_t at = static_cast<std::size_t>(scene.TriangleCell[t]) * bands + b;
+        rho += share * reflectance[at];
+        m += emission && !emitted.empty() ? share * emitted[at] : 0.0;
+      }
+      out.Values[i * bands + b] = m + rho * irradiance.Values[i * bands + b];
+      out.Errors[i * bands + b] = rho * irradiance.Errors[i * bands + b];
+    }
+  }
+  return out;
+}
+
+} // namespace
+
+PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
+  const std::vector<SurfacePoint>& points, bool cells, const std::vector<EffectSwitch>& switches,
+  RadiosityOptions options, Monitor* monitor)
+{
+  Report(monitor, 0.0, "planning");
+  EffectAbilities abilities;
+  abilities.Interreflection = true;
+  abilities.Emission = true;
+  const bool freePoints = std::any_of(
+    points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
+  EffectPlan plan(scene, switches, abilities, freePoints);
+  options.Interreflection = plan.Simulates(Effect::Interreflection);
+  options.Occlusion = plan.Simulates(Effect::Occlusion);
+  options.BackFaces = plan.Simulates(Effect::BackFaces);
+  options.Emission = plan.Simulates(Effect::Emission);
+  options.SpotShape = plan.Simulates(Effect::SpotShape);
+  options.Attenuation = plan.Simulates(Effect::Attenuation);
+
+  const OcclusionScene occluders(scene);
+  PlannedRadiosity out;
+  RadiositySimulation simulation(scene, occluders, options);
+  const double share = points.empty() ? 0.98 : (cells ? 0.8 : 0.6);
+  out.Cells = simulation.Run({ monitor, 0.02, share, "radiosity" });
+  const int sides = options.BackFaces ? 2 : 1;
+  for (int side = 0; side < sides && !points.empty(); ++side)
+  {
+    std::vector<SurfacePoint> facing = points;
+    for (SurfacePoint& p : facing)
+    {
+      p.Normal = side == 1 ? -p.Normal : p.Normal;
+    }
+    const double begin = share + (0.98 - share) * side / sides;
+    const double end = share + (0.98 - share) * (side + 1) / sides;
+    out.PointIrradiance[side] =
+      simulation.IrradianceAt(facing, { monitor, begin, end, "final gather" });
+    out.PointRadiosity[side] =
+      RadiosityAt(scene, facing, side, options.Emission, out.PointIrradiance[side]);
+  }
+
+  for (const auto& [stage, seconds] : out.Cells.Seconds)
+  {
+    plan[stage == "direct light" ? Effect::Occlusion : Effect::Interreflection].Seconds += seconds;
+  }
+  const UnshadowedExtremes extremes =
+    FindUnshadowedExtremes(scene, occluders, plan, options.Threads);
+  plan.Bound(scene, extremes.Peak, extremes.PeakBack, extremes.Spot, extremes.Attenuation);
+  for (int k = 0; k < EffectCount; ++k)
+  {
+    out.Effects.push_back(plan[static_cast<Effect>(k)]);
+  }
+  Report(monitor, 1.0, "done");
+  return out;
+}
+
+} // namespace radiometry
