@@ -127,6 +127,7 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   std::atomic<std::int64_t> rays{ 0 };
   std::atomic<bool> expired{ false };
   std::vector<std::uint8_t> open(patches.size(), 1);
+  std::vector<double> unshadowed(patches.size(), 0.0);
 
   const auto compute = [&](std::size_t i, int work) {
     const Patch& patch = patches[i];
@@ -173,6 +174,16 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
     };
     std::stable_sort(shares.begin(), shares.end(),
       [&](const Share& a, const Share& b) { return strength(a) > strength(b); });
+
+    for (int b = 0; b < bands; ++b)
+    {
+      double sum = 0.0;
+      for (const Share& share : shares)
+      {
+        sum += lights.Sources[share.Light]->GetLight().Intensity[b] * (share.Flux / area);
+      }
+      unshadowed[i] = std::max(unshadowed[i], sum);
+    }
 
     double lit = 0.0; // W, strongest band
     for (const Share& share : shares)
@@ -238,6 +249,7 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   }
   result.TimedOut = expired;
   result.Rays = rays;
+  result.PeakUnshadowed = *std::max_element(unshadowed.begin(), unshadowed.end());
   Report(stage.Listener, stage.End, stage.Name);
   return result;
 }
@@ -251,14 +263,15 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   result.Bands = bands;
   result.Irradiance.assign(points.size() * bands, 0.0);
   result.Error.assign(points.size() * bands, 0.0);
-  DirectOptions unshadowed = options;
-  unshadowed.Occlusion = false; // no outlines: a point needs one ray a light
-  const LightSet lights(scene, occluders, unshadowed);
+  DirectOptions plain = options;
+  plain.Occlusion = false; // no outlines: a point needs one ray a light
+  const LightSet lights(scene, occluders, plain);
   if (lights.Size() == 0 || points.empty())
   {
     return result;
   }
   std::atomic<std::int64_t> rays{ 0 };
+  std::vector<double> unshadowed(points.size(), 0.0);
   ParallelFor(
     points.size(), options.Threads, stage,
     [&](std::size_t i) {
@@ -277,6 +290,7 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
         {
           continue;
         }
+        unshadowed[i] += e * Magnitude(light.Intensity);
         double visible = 1.0;
         double doubt = 0.0;
         if (options.Occlusion && p.Around.empty())
@@ -312,6 +326,7 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
     },
     1e-6 * static_cast<double>(lights.Size()));
   result.Rays = rays;
+  result.PeakUnshadowed = *std::max_element(unshadowed.begin(), unshadowed.end());
   Record(record, result, std::vector<double>(points.size(), 1.0), rays);
   return result;
 }

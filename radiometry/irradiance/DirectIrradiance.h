@@ -29,6 +29,7 @@ struct DirectResult
   int Bands = 1;
   std::vector<double> Irradiance; // patches (points) x bands, W/m^2
   std::vector<double> Error;      // the same shape
+  double PeakUnshadowed = 0.0;    // greatest value, were nothing in the way, of any band
   std::int64_t Rays = 0;
   bool TimedOut = false;
 };

@@ -19,11 +19,6 @@ double GreatestDifference(const std::vector<double>& a, const std::vector<double
   return greatest;
 }
 
-double Greatest(const std::vector<double>& a)
-{
-  return a.empty() ? 0.0 : *std::max_element(a.begin(), a.end());
-}
-
 } // namespace
 
 std::vector<Patch> MakePatches(const Scene& scene, int side)
@@ -73,32 +68,50 @@ FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patch
   return out;
 }
 
-UnshadowedExtremes FindUnshadowedExtremes(
-  const Scene& scene, const OcclusionScene& occluders, const EffectPlan& plan, int threads)
+void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
+  EffectPlan& plan)
 {
-  UnshadowedExtremes found;
-  DirectOptions options;
-  options.Occlusion = false;
-  options.Threads = threads;
+  const auto leftOut = [&](Effect effect) {
+    return plan[effect].Present && !plan.Simulates(effect);
+  };
+  DirectOptions bare;
+  bare.Occlusion = false;
+  bare.Threads = threads;
+  bool any = false;
+  for (int k = 0; k < EffectCount; ++k)
+  {
+    any = any || leftOut(static_cast<Effect>(k));
+  }
+  if (any && peak < 0.0)
+  {
+    peak = ComputeDirectIrradiance(scene, occluders, MakePatches(scene, 0), bare).PeakUnshadowed;
+  }
+  double peakBack = 0.0;
+  double spot = 0.0;
+  double attenuation = 0.0;
+  if (leftOut(Effect::BackFaces))
+  {
+    peakBack =
+      ComputeDirectIrradiance(scene, occluders, MakePatches(scene, 1), bare).PeakUnshadowed;
+  }
   for (int side = 0; side < 2; ++side)
   {
-    const std::vector<Patch> patches = MakePatches(scene, side);
-    const DirectResult full = ComputeDirectIrradiance(scene, occluders, patches, options);
-    (side == 0 ? found.Peak : found.PeakBack) = Greatest(full.Irradiance);
     const auto without = [&](Effect effect, bool DirectOptions::*flag, double& change) {
-      if (plan[effect].Present && !plan.Simulates(effect))
+      if (leftOut(effect))
       {
-        DirectOptions less = options;
+        const std::vector<Patch> patches = MakePatches(scene, side);
+        DirectOptions less = bare;
         less.*flag = false;
-        change = std::max(change,
-          GreatestDifference(full.Irradiance,
-            ComputeDirectIrradiance(scene, occluders, patches, less).Irradiance));
+        const DirectResult full = ComputeDirectIrradiance(scene, occluders, patches, bare);
+        const DirectResult simple = ComputeDirectIrradiance(scene, occluders, patches, less);
+        change = std::max(change, GreatestDifference(full.Irradiance, simple.Irradiance));
+        peak = std::max(peak, full.PeakUnshadowed);
       }
     };
-    without(Effect::SpotShape, &DirectOptions::SpotShape, found.Spot);
-    without(Effect::Attenuation, &DirectOptions::Attenuation, found.Attenuation);
+    without(Effect::SpotShape, &DirectOptions::SpotShape, spot);
+    without(Effect::Attenuation, &DirectOptions::Attenuation, attenuation);
   }
-  return found;
+  plan.Bound(scene, peak, peakBack, spot, attenuation);
 }
 
 IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<SurfacePoint>& points,
@@ -121,6 +134,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
 
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;
   bool timedOut = false;
+  double peak = 0.0;
   for (int side = 0; side < sides; ++side)
   {
     const double begin = 0.02 + 0.96 * side / sides;
@@ -137,6 +151,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
         { monitor, begin, middle, "direct light" }, &result.Convergence);
       result.Cells[side] = AverageOverCells(scene, patches, r.Irradiance, r.Error);
       timedOut = timedOut || r.TimedOut;
+      peak = std::max(peak, r.PeakUnshadowed);
     }
     if (!points.empty())
     {
@@ -150,14 +165,13 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
       }
       DirectResult r = ComputeDirectIrradiance(scene, occluders, facing, direct,
         { monitor, middle, end, "direct light at points" }, &result.Convergence);
+      peak = std::max(peak, r.PeakUnshadowed);
       result.Points[side] = { std::move(r.Irradiance), std::move(r.Error) };
     }
   }
   plan[Effect::Occlusion].Seconds = result.Convergence.Elapsed();
 
-  const UnshadowedExtremes extremes =
-    FindUnshadowedExtremes(scene, occluders, plan, options.Threads);
-  plan.Bound(scene, extremes.Peak, extremes.PeakBack, extremes.Spot, extremes.Attenuation);
+  BoundLeftOut(scene, occluders, peak, options.Threads, plan);
   for (int k = 0; k < EffectCount; ++k)
   {
     result.Effects.push_back(plan[static_cast<Effect>(k)]);

@@ -51,16 +51,9 @@ std::vector<Patch> MakePatches(const Scene& scene, int side);
 FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches,
   const std::vector<double>& values, const std::vector<double>& errors);
 
-/// Greatest changes of the unshadowed irradiance of any patch that leaving an effect out makes:
-/// what EffectPlan::Bound asks for.
-struct UnshadowedExtremes
-{
-  double Peak = 0.0;
-  double PeakBack = 0.0;
-  double Spot = 0.0;
-  double Attenuation = 0.0;
-};
-UnshadowedExtremes FindUnshadowedExtremes(
-  const Scene& scene, const OcclusionScene& occluders, const EffectPlan& plan, int threads);
+/// Bounds what a plan left out, from the greatest unshadowed irradiance that the run met (below 0:
+/// not known). What only the effects left out need is computed here, without a ray.
+void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
+  EffectPlan& plan);
 
 } // namespace radiometry

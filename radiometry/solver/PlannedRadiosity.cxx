@@ -88,9 +88,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   {
     plan[stage == "direct light" ? Effect::Occlusion : Effect::Interreflection].Seconds += seconds;
   }
-  const UnshadowedExtremes extremes =
-    FindUnshadowedExtremes(scene, occluders, plan, options.Threads);
-  plan.Bound(scene, extremes.Peak, extremes.PeakBack, extremes.Spot, extremes.Attenuation);
+  BoundLeftOut(scene, occluders, -1.0, options.Threads, plan);
   for (int k = 0; k < EffectCount; ++k)
   {
     out.Effects.push_back(plan[static_cast<Effect>(k)]);
