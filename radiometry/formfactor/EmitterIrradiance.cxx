@@ -3,6 +3,7 @@
 
 #include "radiometry/formfactor/PairExchange.h"
 #include "radiometry/formfactor/PairVisibility.h"
+#include "radiometry/formfactor/PointGather.h"
 #include "radiometry/geometry/PolygonFormFactor.h"
 #include "radiometry/geometry/Sampling.h"
 
@@ -69,7 +70,7 @@ void Finish(const std::vector<std::int64_t>& rays, EmitterResult& result)
 
 /// Visible fraction of one emitter from a point, as PairVisibility.
 PairVisibilityResult PointVisibility(const OcclusionScene& scene, const SurfacePoint& point,
-  const RayEnd& end, const ExchangePatch& emitter, std::int32_t triangle, std::uint64_t key,
+  const std::vector<PointStart>& starts, const ExchangePatch& emitter, std::int32_t triangle, std::uint64_t key,
   double wanted)
 {
   constexpr int sets = 4;
@@ -88,22 +89,32 @@ PairVisibilityResult PointVisibility(const OcclusionScene& scene, const SurfaceP
         const double r2 = LengthSquared(r);
         const double kernel =
           std::max(0.0, Dot(point.Normal, r)) * std::max(0.0, -Dot(emitter.Normal, r)) / (r2 * r2);
-        if (!(kernel > 0.0))
+        const auto first = static_cast<std::size_t>(u[2] * static_cast<double>(starts.size()));
+        const PointStart* start = nullptr;
+        for (std::size_t s = 0; s < starts.size() && !start; ++s)
+        {
+          const PointStart& candidate = starts[(first + s) % starts.size()];
+          if (point.Around.empty() || Dot(candidate.Normal, y - candidate.End.Point) > 0.0)
+          {
+            start = &candidate;
+          }
+        }
+        if (!(kernel > 0.0) || !start)
         {
           continue;
         }
         ++result.Rays;
         weight[set] += kernel;
         all += kernel;
-        if (!scene.Occluded(end, { y, triangle }))
+        if (!scene.Occluded(start->End, { y, triangle }))
         {
           visible[set] += kernel;
           sum += kernel;
         }
       }
     }
-    result.Fraction = all > 0.0 ? sum / all : 0.5;
-    spread = all > 0.0 ? 0.0 : 0.25;
+    result.Fraction = all > 0.0 ? sum / all : 0.0; // nothing of it above the surface
+    spread = 0.0;
     for (int set = 0; set < sets && all > 0.0; ++set)
     {
       const double off = (visible[set] - result.Fraction * weight[set]) / all;
@@ -176,7 +187,7 @@ EmitterResult ComputeEmitterIrradiance(const OcclusionScene& occluders,
   return result;
 }
 
-EmitterResult ComputeEmitterIrradiance(const OcclusionScene& occluders,
+EmitterResult ComputeEmitterIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<SurfacePoint>& points, const EmitterSet& emitters,
   const ExchangeOptions& options, const StageProgress& stage)
 {
@@ -192,8 +203,7 @@ EmitterResult ComputeEmitterIrradiance(const OcclusionScene& occluders,
     points.size(), options.Threads, stage,
     [&](std::size_t i) {
       const SurfacePoint& point = points[i];
-      const RayEnd end{ point.Point, point.Triangle,
-        point.Triangle < 0 && occluders.TooClose(point.Point) };
+      const std::vector<PointStart> starts = PointStarts(scene, occluders, point);
       std::vector<double> factors(shapes.size(), 0.0);
       double total = 0.0;
       for (std::size_t j = 0; j < shapes.size(); ++j)
@@ -216,7 +226,7 @@ EmitterResult ComputeEmitterIrradiance(const OcclusionScene& occluders,
           const double share = factors[j] * strength[j] / total;
           const std::uint64_t key = Hash64(options.Seed ^ EmitterSalt ^ 0x706f696e74ull,
             (static_cast<std::uint64_t>(i) << 32) | j);
-          v = PointVisibility(occluders, point, end, shapes[j], emitters.Patches[j].Triangle, key,
+          v = PointVisibility(occluders, point, starts, shapes[j], emitters.Patches[j].Triangle, key,
             0.5 * options.RelativeTolerance / std::sqrt(share));
           rays[i] += v.Rays;
         }

@@ -40,7 +40,7 @@ EmitterResult ComputeEmitterIrradiance(const OcclusionScene& occluders,
   const StageProgress& stage = {});
 
 /// The same at points about their normals: closed form to each emitter, one end of the rays fixed.
-EmitterResult ComputeEmitterIrradiance(const OcclusionScene& occluders,
+EmitterResult ComputeEmitterIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<SurfacePoint>& points, const EmitterSet& emitters,
   const ExchangeOptions& options, const StageProgress& stage = {});
 

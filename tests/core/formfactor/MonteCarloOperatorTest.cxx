@@ -204,7 +204,7 @@ TEST(EmitterIrradiance, SmallLampOverAFloorWithAndWithoutAScreen)
   }
   const std::size_t each = points.size() / receivers.size();
   const EmitterResult atPoints =
-    ComputeEmitterIrradiance(screened.Occluders, points, lamp, options);
+    ComputeEmitterIrradiance(screened.Geometry, screened.Occluders, points, lamp, options);
   const Vec3 middle = 0.5 * (Centroid(lamp.Patches[0].Corners) + Centroid(lamp.Patches[1].Corners));
   int shaded = 0, half = 0, inside = 0;
   for (std::size_t i = 0; i < floor; ++i)

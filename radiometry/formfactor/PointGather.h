@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/formfactor/ElementSet.h"
+#include "radiometry/formfactor/ExchangeOptions.h"
+#include "radiometry/scene/Parallel.h"
+#include "radiometry/scene/Patch.h"
+#include "radiometry/scene/Scene.h"
+#include "radiometry/visibility/OcclusionScene.h"
+
+#include <vector>
+
+namespace radiometry
+{
+
+/// From where rays of a point start: the point itself, or just inside each of the triangles that
+/// meet at a vertex, with the normal of each turned to the point's side.
+struct PointStart
+{
+  RayEnd End;
+  Vec3 Normal; // a ray below this plane does not start here; zero: any ray does
+};
+std::vector<PointStart> PointStarts(
+  const Scene& scene, const OcclusionScene& occluders, const SurfacePoint& point);
+
+struct GatherResult
+{
+  std::vector<double> Irradiance; // points x bands, W/m^2
+  std::vector<double> Error;      // standard error
+  std::int64_t Rays = 0;
+};
+
+/// Irradiance at points from elements of known radiosity, by cosine-weighted rays about their
+/// normals (final gather).
+///   Error   spread of eight scrambled sequences, each continued until 2.4 standard errors are
+///           below the tolerance, or 8 x 512 rays
+GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
+  const ElementSet& elements, const std::vector<double>& radiosity, int bands,
+  const std::vector<SurfacePoint>& points, double absoluteTolerance,
+  const ExchangeOptions& options, const StageProgress& stage = {});
+
+} // namespace radiometry

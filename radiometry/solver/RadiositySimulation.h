@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/formfactor/FormFactorOperator.h"
+#include "radiometry/irradiance/IrradianceSimulation.h"
+#include "radiometry/scene/Parallel.h"
+#include "radiometry/scene/Patch.h"
+#include "radiometry/scene/Scene.h"
+#include "radiometry/visibility/OcclusionScene.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace radiometry
+{
+
+/// The values of the Method property.
+enum class RadiosityMethod
+{
+  Auto = 0,
+  Dense = 1,
+  Hierarchical = 2,
+  MonteCarlo = 3
+};
+
+/// The values of the Refinement property: may the solve use a finer mesh than the one given?
+enum class RefinementMode
+{
+  Auto = 0, // where the error asks for it and it can be afforded
+  On = 1,   // at least once
+  Off = 2   // one constant radiosity a cell
+};
+
+struct RadiosityOptions
+{
+  double RelativeTolerance = 0.01;
+  double AbsoluteTolerance = 0.0; // W/m^2
+  double TimeBudget = 0.0;        // s; 0: none
+  std::size_t MemoryLimit = 0;    // bytes; 0: 2 GiB
+  RadiosityMethod Method = RadiosityMethod::Auto;
+  RefinementMode Refinement = RefinementMode::Auto;
+  bool Interreflection = true;
+  bool Occlusion = true;
+  bool BackFaces = true;
+  bool Emission = true;
+  bool SpotShape = true;
+  bool Attenuation = true;
+  int Threads = 0; // 0: all
+  std::uint64_t Seed = 0;
+};
+
+/// Area-weighted mean over the cells of each part of IrradianceError, brightest band, W/m^2.
+struct RadiosityErrorBudget
+{
+  double Direct = 0.0;         // direct light, and what its error adds by reflection
+  double FormFactors = 0.0;    // unoccluded exchange
+  double Visibility = 0.0;     // sampling of what is hidden (Monte Carlo: all sampling)
+  double Discretisation = 0.0; // constant radiosity on each element
+  double Solver = 0.0;         // linear system
+};
+
+struct RadiosityResult
+{
+  /// Front, back (where any cell is two-sided and BackFaces); cells x bands, W/m^2.
+  std::array<FieldValues, 2> Irradiance;
+  std::array<FieldValues, 2> Radiosity;
+  RadiosityErrorBudget Budget;
+  RadiosityMethod Method = RadiosityMethod::Auto; // used
+  std::string MethodWhy;                          // why, with the operator's own description
+  std::string Outcome;                            // what ended the run
+  ConvergenceRecord Convergence;
+  std::vector<std::pair<std::string, double>> Seconds; // by stage
+  ClosureReport Closure;
+  std::size_t Elements = 0;
+  int Iterations = 0;
+  std::int64_t Samples = 0;    // pairs and rays of the operator
+  std::size_t OperatorBytes = 0;
+};
+
+/// Direct light, emission and interreflection on a scene.
+///   Reads    scene.Lights, Optics.DiffuseReflectance, EmittedExitance, TwoSided (front and back)
+///   Model    B = M + rho E, E = E_lights + int F dB: diffuse radiosity; specular and transmitted
+///            parts are not followed
+///   Values   averages over the cells; E of a cell of many elements is their area-weighted mean
+///   Error    half-width that covers 95 % of values: direct light, exchange, visibility (twice its
+///            standard error), discretisation (difference from the solve on elements merged by
+///            fours), solver (bound)
+///   Method   Dense up to some 4000 elements, MonteCarlo above; refined from coarse to fine until
+///            the tolerance is met, every step a row of Convergence
+///   Fails    InputError for optics out of range, a lossless closed cavity with light, a memory
+///            limit too small for any method, Method Hierarchical (not in this version)
+class RadiositySimulation
+{
+public:
+  /// `scene` and `occluders` must outlive this.
+  RadiositySimulation(
+    const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options);
+  ~RadiositySimulation();
+
+  /// Once; the result stays available for IrradianceAt.
+  const RadiosityResult& Run(const StageProgress& stage = {});
+
+  /// Irradiance at points about their normals by final gather: direct light and emitters as in
+  /// Run, the rest by rays to the elements' radiosity. Items x bands.
+  FieldValues IrradianceAt(
+    const std::vector<SurfacePoint>& points, const StageProgress& stage = {}) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Impl;
+};
+
+} // namespace radiometry
