@@ -59,7 +59,7 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   else
   {
     vtksys::SystemInformation machine;
-    machine.QueryMemory();
+    machine.RunMemoryCheck();
     options.MemoryLimit = static_cast<std::size_t>(0.5 * mebibyte) * machine.GetTotalPhysicalMemory();
   }
   options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);

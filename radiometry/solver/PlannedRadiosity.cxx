@@ -57,7 +57,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
     points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectPlan plan(scene, switches, abilities, freePoints);
   options.Interreflection = plan.Simulates(Effect::Interreflection);
-  options.Occlusion = plan.Simulates(Effect::Occlusion);
+  // Where nothing can stand between, rays may still be traced: they are how Monte Carlo exchanges.
+  options.Occlusion = plan.Simulates(Effect::Occlusion) || !plan[Effect::Occlusion].Present;
   options.BackFaces = plan.Simulates(Effect::BackFaces);
   options.Emission = plan.Simulates(Effect::Emission);
   options.SpotShape = plan.Simulates(Effect::SpotShape);
