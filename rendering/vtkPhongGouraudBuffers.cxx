@@ -16,6 +16,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 
+#include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/Vec3.h"
 
 #include <array>
@@ -158,34 +159,38 @@ void SetTexel(std::vector<float>& texels, std::size_t i, double x, double y, dou
 
 } // namespace
 
-vtkDataArray* vtkPhongGouraudHelper::FindField(vtkPolyData* block, bool& ofCells)
+vtkPhongGouraudHelper::BlockField vtkPhongGouraudHelper::FindField(vtkPolyData* block)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
-  ofCells = false;
+  BlockField field;
   if (mapper->FieldMode != vtkPhongGouraudMapper::FIELD_ON &&
     mapper->FieldMode != vtkPhongGouraudMapper::FIELD_REFLECTANCE)
   {
-    return nullptr;
+    return field;
   }
-  const char* name = mapper->FieldArrayName.c_str();
+  const auto find = [](vtkDataSetAttributes* data, const std::string& name, vtkIdType tuples) {
+    vtkDataArray* array = data->GetArray(name.c_str());
+    return array && array->GetNumberOfTuples() == tuples ? array : nullptr;
+  };
+  const std::string& name = mapper->FieldArrayName;
+  vtkDataSetAttributes* data = block->GetPointData();
+  vtkIdType tuples = block->GetNumberOfPoints();
   if (mapper->FieldAssociation != 1)
   {
-    vtkDataArray* array = block->GetPointData()->GetArray(name);
-    if (array && array->GetNumberOfTuples() == block->GetNumberOfPoints())
-    {
-      return array;
-    }
+    field.Front = find(data, name, tuples);
   }
-  if (mapper->FieldAssociation != 0)
+  if (!field.Front && mapper->FieldAssociation != 0)
   {
-    vtkDataArray* array = block->GetCellData()->GetArray(name);
-    if (array && array->GetNumberOfTuples() == block->GetNumberOfCells())
-    {
-      ofCells = true;
-      return array;
-    }
+    data = block->GetCellData();
+    tuples = block->GetNumberOfCells();
+    field.Front = find(data, name, tuples);
+    field.OfCells = field.Front != nullptr;
   }
-  return nullptr;
+  if (field.Front)
+  {
+    field.Back = find(data, name + radiometry::names::BackSuffix, tuples);
+  }
+  return field;
 }
 
 bool vtkPhongGouraudHelper::GetNeedToRebuildBufferObjects(vtkRenderer* ren, vtkActor* act)
@@ -199,13 +204,15 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
   vtkPhongGouraudMapper* mapper = this->Mapper();
   this->FieldOfCells = false;
   this->FieldOfPoints = false;
+  this->FieldOfBack = false;
   this->ConstantInCells = mapper->Shading == vtkPhongGouraudMapper::AUTO;
   for (auto& data : this->Data)
   {
-    bool ofCells = false;
-    if (this->FindField(data.first, ofCells))
+    const BlockField field = this->FindField(data.first);
+    if (field.Front)
     {
-      (ofCells ? this->FieldOfCells : this->FieldOfPoints) = true;
+      (field.OfCells ? this->FieldOfCells : this->FieldOfPoints) = true;
+      this->FieldOfBack = this->FieldOfBack || field.Back;
     }
     this->ConstantInCells = this->ConstantInCells && HasOneNormalPerCell(data.first);
   }
@@ -243,13 +250,14 @@ void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* ac
 
 void vtkPhongGouraudHelper::AppendField(vtkCompositeMapperHelperData* hdata, bool newPoints)
 {
-  bool ofCells = false;
-  vtkDataArray* field = this->FindField(hdata->Data, ofCells);
-  field = ofCells ? nullptr : field;
+  const BlockField found = this->FindField(hdata->Data);
+  vtkDataArray* front = found.OfCells ? nullptr : found.Front;
+  vtkDataArray* back = found.OfCells || !found.Back ? front : found.Back;
+  vtkDataArray* points = hdata->Data->GetPoints()->GetData();
   if (!newPoints)
   {
     // VTK draws blocks that share their points from one copy of them; so must their field be.
-    if (this->FieldOfShared[hdata->Data->GetPoints()->GetData()] != field)
+    if (this->FieldOfShared[points] != front)
     {
       vtkErrorWithObjectMacro(this->Mapper(),
         << "two blocks share one array of points but not the field \""
@@ -257,18 +265,28 @@ void vtkPhongGouraudHelper::AppendField(vtkCompositeMapperHelperData* hdata, boo
     }
     return;
   }
-  this->FieldOfShared[hdata->Data->GetPoints()->GetData()] = field;
+  this->FieldOfShared[points] = front;
+  const vtkIdType count = hdata->Data->GetNumberOfPoints();
+  this->AppendPointField("radiometryFieldMC", front, count);
+  if (this->FieldOfBack)
+  {
+    this->AppendPointField("radiometryFieldBackMC", back, count);
+  }
+}
+
+void vtkPhongGouraudHelper::AppendPointField(
+  const char* attribute, vtkDataArray* field, vtkIdType points)
+{
   vtkNew<vtkFloatArray> values;
   values->SetNumberOfComponents(3);
-  const vtkIdType count = hdata->Data->GetNumberOfPoints();
-  values->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i)
+  values->SetNumberOfTuples(points);
+  for (vtkIdType i = 0; i < points; ++i)
   {
     const std::array<float, 3> rgb =
       field ? ToRgb(field, i) : std::array<float, 3>{ { 0.0f, 0.0f, 0.0f } };
     values->SetTypedTuple(i, rgb.data());
   }
-  this->VBOs->AppendDataArray("radiometryFieldMC", values, VTK_FLOAT);
+  this->VBOs->AppendDataArray(attribute, values, VTK_FLOAT);
 }
 
 void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
@@ -310,20 +328,25 @@ void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
     total = static_cast<std::size_t>(data.second->CellCellMap->GetFinalOffset());
   }
   std::vector<float> frameTexels(frames ? 8 * total : 0, 0.0f);
-  std::vector<float> fieldTexels(fields ? 4 * total : 0, 0.0f);
+  const std::size_t sides = this->FieldOfBack ? 2 : 1;
+  std::vector<float> fieldTexels(fields ? 4 * sides * total : 0, 0.0f);
   for (auto& data : this->Data)
   {
     vtkPolyData* block = data.first;
     vtkOpenGLCellToVTKCellMap* map = data.second->CellCellMap;
     const vtkIdType* offsets = map->GetPrimitiveOffsets();
-    bool ofCells = false;
-    vtkDataArray* field = this->FindField(block, ofCells);
-    if (fields && field && ofCells)
+    const BlockField field = this->FindField(block);
+    if (fields && field.OfCells)
     {
-      for (std::size_t i = 0; i < map->GetSize(); ++i)
+      for (std::size_t side = 0; side < sides; ++side)
       {
-        const std::array<float, 3> rgb = ToRgb(field, map->GetValue(i));
-        SetTexel(fieldTexels, static_cast<std::size_t>(offsets[0]) + i, rgb[0], rgb[1], rgb[2]);
+        vtkDataArray* array = side == 1 && field.Back ? field.Back : field.Front;
+        for (std::size_t i = 0; i < map->GetSize(); ++i)
+        {
+          const std::array<float, 3> rgb = ToRgb(array, map->GetValue(i));
+          const std::size_t texel = (static_cast<std::size_t>(offsets[0]) + i) * sides + side;
+          SetTexel(fieldTexels, texel, rgb[0], rgb[1], rgb[2]);
+        }
       }
     }
     if (frames)

@@ -135,6 +135,7 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     needs.insert("Field");
     need(this->FieldOfCells, "FieldOfCells");
     need(this->FieldOfPoints, "FieldOfPoints");
+    need(this->FieldOfBack, "FieldOfBack");
   }
 
   const bool smooth = this->HasPointNormals();
@@ -263,6 +264,21 @@ void vtkPhongGouraudHelper::ReplaceShaderColor(ShaderMap shaders, vtkRenderer* r
     // A mirrored actor shows its fronts with the other winding.
     std::string source = shaders[vtkShader::Fragment]->GetSource();
     vtkShaderProgram::Substitute(source, "gl_FrontFacing == false", "gl_FrontFacing == true");
+    shaders[vtkShader::Fragment]->SetSource(source);
+  }
+}
+
+void vtkPhongGouraudHelper::ReplaceShaderEdges(ShaderMap shaders, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::ReplaceShaderEdges(shaders, ren, act);
+  if (this->Ours)
+  {
+    // VTK mixes the edges into the material, before light; here they lie on the finished colour.
+    std::string source = shaders[vtkShader::Fragment]->GetSource();
+    vtkShaderProgram::Substitute(
+      source, "  diffuseColor = mix(diffuseColor, vec3(0.0), emix);\n", "");
+    vtkShaderProgram::Substitute(
+      source, "  ambientColor = mix( ambientColor, edgeColor, emix);\n", "");
     shaders[vtkShader::Fragment]->SetSource(source);
   }
 }

@@ -46,6 +46,7 @@ protected:
   void BuildShaders(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
   void ReplaceShaderValues(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
   void ReplaceShaderColor(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
+  void ReplaceShaderEdges(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
   void ReplaceShaderNormal(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
   void ReplaceShaderLight(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
   void SetPropertyShaderParameters(
@@ -85,7 +86,15 @@ private:
   void CollectLights(vtkRenderer* ren, vtkActor* act);
   void AppendField(vtkCompositeMapperHelperData* hdata, bool newPoints);
   void BuildCellBuffers(vtkRenderer* ren, vtkActor* act);
-  vtkDataArray* FindField(vtkPolyData* block, bool& ofCells);
+  /// The field of a block and its back's (the front's where it has none of its own).
+  struct BlockField
+  {
+    vtkDataArray* Front = nullptr;
+    vtkDataArray* Back = nullptr;
+    bool OfCells = false;
+  };
+  BlockField FindField(vtkPolyData* block);
+  void AppendPointField(const char* attribute, vtkDataArray* field, vtkIdType points);
 
   vtkradiometry::PackedLights Lights;
   vtkradiometry::ShaderFeatures Features; // of the primitive that is being drawn
@@ -93,6 +102,7 @@ private:
   bool Ours = false; // of the primitive that is being drawn
   bool FieldOfCells = false;
   bool FieldOfPoints = false;
+  bool FieldOfBack = false; // some block has a field for its back
   bool ConstantInCells = false; // one normal at all points of each cell
   // Of blocks in whose points others may share: the field they were drawn with.
   std::map<vtkDataArray*, vtkDataArray*> FieldOfShared;

@@ -167,7 +167,9 @@ public:
    * Off (default): the surface is lit by the lights. On: the array FieldArrayName times FieldScale
    * is the colour, scene-linear and without clamping: one band grey, three RGB, any other number
    * the grey of its mean. Point data is interpolated, cell data is constant over a cell; a block
-   * without the array is black. Reflectance: the array is the diffuse reflectance that the lights
+   * without the array is black. Where the surface is two-sided, an array of that name with "Back"
+   * after it (RadiosityBack) is what the back shows; without one, both sides show the same.
+   * Reflectance: the array is the diffuse reflectance that the lights
    * light. Normals: the unit normal of the shaded side, in world coordinates, as RGB in [-1, 1].
    */
   void SetFieldMode(int mode);

@@ -22,10 +22,24 @@
 //@if Field
   vec3 field = vec3(0.0);
 //@if FieldOfCells
+//@if FieldOfBack
+  int cellField = 2 * (gl_PrimitiveID + PrimitiveIDOffset);
+//@if TwoSided
+  cellField += frontFacing ? 0 : 1;
+//@end
+  field += texelFetch(radiometryField, cellField).rgb;
+//@else
   field += texelFetch(radiometryField, gl_PrimitiveID + PrimitiveIDOffset).rgb;
 //@end
+//@end
 //@if FieldOfPoints
-  field += fieldVSOutput;
+  vec3 pointField = fieldVSOutput;
+//@if FieldOfBack
+//@if TwoSided
+  pointField = frontFacing ? fieldVSOutput : fieldBackVSOutput;
+//@end
+//@end
+  field += pointField;
 //@end
   field *= fieldScale;
 //@end
@@ -95,8 +109,8 @@
   color += emission;
 //@end
 //@end
-//@if Edges
-  color = mix(color, edgeColor, emix);
-//@end
   gl_FragData[0] = vec4(color, opacity);
+//@end
+//@if Edges
+  gl_FragData[0].rgb = mix(gl_FragData[0].rgb, edgeColor, emix);
 //@end

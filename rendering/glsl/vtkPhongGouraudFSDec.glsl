@@ -16,6 +16,9 @@ uniform samplerBuffer radiometryField;
 //@end
 //@if FieldOfPoints
 in vec3 fieldVSOutput;
+//@if FieldOfBack
+in vec3 fieldBackVSOutput;
+//@end
 //@end
 //@if ShowNormals
 uniform mat3 viewToWorld;

@@ -2,6 +2,9 @@
 // //VTK::Light::Impl of that geometry shader, once for each vertex i.
 //@if FieldOfPoints
   fieldGSOutput = fieldVSOutput[i];
+//@if FieldOfBack
+  fieldBackGSOutput = fieldBackVSOutput[i];
+//@end
 //@end
 //@if PerVertex
   diffuseFrontGSOutput = diffuseFrontVSOutput[i];

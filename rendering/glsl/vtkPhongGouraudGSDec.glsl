@@ -3,6 +3,10 @@
 //@if FieldOfPoints
 in vec3 fieldVSOutput[];
 out vec3 fieldGSOutput;
+//@if FieldOfBack
+in vec3 fieldBackVSOutput[];
+out vec3 fieldBackGSOutput;
+//@end
 //@end
 //@if PerVertex
 in vec3 diffuseFrontVSOutput[];

@@ -2,6 +2,9 @@
 // //VTK::Light::Impl of the vertex shader: Gouraud's sums over the lights at each vertex.
 //@if FieldOfPoints
   fieldVSOutput = radiometryFieldMC;
+//@if FieldOfBack
+  fieldBackVSOutput = radiometryFieldBackMC;
+//@end
 //@end
 //@if PerVertex
   {

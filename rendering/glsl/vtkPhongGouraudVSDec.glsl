@@ -3,6 +3,10 @@
 //@if FieldOfPoints
 in vec3 radiometryFieldMC;
 out vec3 fieldVSOutput;
+//@if FieldOfBack
+in vec3 radiometryFieldBackMC;
+out vec3 fieldBackVSOutput;
+//@end
 //@end
 //@if PerVertex
 //@if Specular
