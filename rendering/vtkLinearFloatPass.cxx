@@ -251,9 +251,19 @@ void vtkLinearFloatPass::Render(const vtkRenderState* s)
     vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (renderer->GetSelector())
   {
-    // Selection reads ids out of the window's own buffer.
-    this->ScenePass()->Render(s);
-    this->NumberOfRenderedProps = this->ScenePass()->GetNumberOfRenderedProps();
+    // Selection reads ids out of the window's own buffer, and draws them without passes.
+    if (this->DelegatePass)
+    {
+      this->DelegatePass->Render(s);
+      this->NumberOfRenderedProps = this->DelegatePass->GetNumberOfRenderedProps();
+    }
+    else
+    {
+      const vtkSmartPointer<vtkRenderPass> pass = renderer->GetPass();
+      renderer->SetPass(nullptr);
+      renderer->DeviceRender();
+      renderer->SetPass(pass);
+    }
     return;
   }
 
