@@ -206,8 +206,10 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
   this->FieldOfPoints = false;
   this->FieldOfBack = false;
   this->ConstantInCells = mapper->Shading == vtkPhongGouraudMapper::AUTO;
+  bool empty = true;
   for (auto& data : this->Data)
   {
+    empty = empty && data.first->GetNumberOfCells() == 0;
     const BlockField field = this->FindField(data.first);
     if (field.Front)
     {
@@ -218,7 +220,7 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
   }
   const bool wanted = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON ||
     mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
-  if (wanted && !this->FieldOfCells && !this->FieldOfPoints)
+  if (wanted && !empty && !this->FieldOfCells && !this->FieldOfPoints)
   {
     vtkWarningWithObjectMacro(mapper, << "no point or cell array \"" << mapper->FieldArrayName
                                       << "\": these blocks are drawn black");
