@@ -15,9 +15,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from gltf_builder import Object, Scene, breaks, cross, dot, normalized  # noqa: E402
 
 X, Y, Z = 6.0, 3.0, 5.0             # the room: x 0..6, z 0..5, floor at 0
-SKIRTING, THICK = 0.1, 0.015        # its height and thickness
+SKIRTING, THICK = 0.1, 0.018        # its height and thickness
 DOOR = (3.95, 4.85, 2.03)           # in the wall z = 0: x from, to, height
-TRIM, TRIM_THICK = 0.07, 0.02       # the door's trim
+TRIM = 0.07                         # the door's trim, flush with the skirting
 DOOR_DEPTH = 0.1
 WINDOW = (0.9, 2.1, 2.1, 3.9)       # in the wall x = 0: y from, to, z from, to
 REVEAL = 0.3
@@ -103,22 +103,24 @@ def door(scene, materials):
     lining = Object("door lining", materials["gloss white"])
     heights = breaks(0.0, top, Y_MARKS)
     lines = breaks(x0, x1, WALL_X)
-    lining.grid(0, x0, heights, (-DOOR_DEPTH, TRIM_THICK), 1)
-    lining.grid(0, x1, heights, (-DOOR_DEPTH, TRIM_THICK), -1)
-    lining.grid(1, top, lines, (-DOOR_DEPTH, TRIM_THICK), -1)
+    lining.grid(0, x0, heights, (-DOOR_DEPTH, THICK), 1)
+    lining.grid(0, x1, heights, (-DOOR_DEPTH, THICK), -1)
+    lining.grid(1, top, lines, (-DOOR_DEPTH, THICK), -1)
     # The trim: front, outer edges; the skirting runs into its sides.
     outer = (x0 - TRIM, x1 + TRIM, 0.0, top + TRIM)
     across = [outer[0], *lines, outer[1]]
     up = [*heights, outer[3]]
-    lining.grid(2, TRIM_THICK, across, up, 1, holes=[(x0, x1, -1.0, top)])
-    lining.grid(0, outer[0], up, (0.0, TRIM_THICK), -1)
-    lining.grid(0, outer[1], up, (0.0, TRIM_THICK), 1)
-    lining.grid(1, outer[3], across, (0.0, TRIM_THICK), 1)
-    # The floor between the two halves of the trim is the room's; under the trim there is none.
+    lining.grid(2, THICK, across, up, 1, holes=[(x0, x1, -1.0, top)])
+    # Its sides above the skirting, which runs into them.
+    above = up[up.index(SKIRTING):]
+    lining.grid(0, outer[0], above, (0.0, THICK), -1)
+    lining.grid(0, outer[1], above, (0.0, THICK), 1)
+    lining.grid(1, outer[3], across, (0.0, THICK), 1)
     scene.add(lining)
 
     leaf = Object("door", materials["door"])
-    panels = [(x0 + 0.12, x1 - 0.12, 0.25, 0.95), (x0 + 0.12, x1 - 0.12, 1.1, 1.95)]
+    sides = (round(x0 + 0.12, 6), round(x1 - 0.12, 6))
+    panels = [(*sides, 0.25, 0.95), (*sides, 1.1, 1.93)]
     marks_x = [v for p in panels for v in p[:2]] + lines
     marks_y = [v for p in panels for v in p[2:]] + Y_MARKS
     leaf.grid(2, -DOOR_DEPTH, breaks(x0, x1, marks_x), breaks(0.0, top, marks_y), 1, holes=panels)
@@ -126,6 +128,7 @@ def door(scene, materials):
         back = -DOOR_DEPTH - 0.012
         xs = [x for x in breaks(x0, x1, marks_x) if a <= x <= b]
         ys = [y for y in breaks(0.0, top, marks_y) if c <= y <= d]
+        assert (xs[0], xs[-1], ys[0], ys[-1]) == (a, b, c, d)
         leaf.grid(2, back, xs, ys, 1)
         leaf.grid(0, a, ys, (back, -DOOR_DEPTH), 1)
         leaf.grid(0, b, ys, (back, -DOOR_DEPTH), -1)
@@ -289,11 +292,11 @@ def lights(scene, materials):
     shade = Object("pendant shade", materials["shade"])
     shade.revolve((LAMP[0], LAMP[1], LAMP[2]),
                   [(0.30, 0.06, 0.3, 1.0), (0.22, 0.16, 0.75, 0.85), (0.10, 0.235, 0.6, 1.0),
-                   (0.015, 0.27, 0.5, 1.0)], 28)
+                   (0.02, 0.268, 0.5, 1.0), (0.0, 0.27, 0.0, 1.0)], 28)
     scene.add(shade)
     cord = Object("pendant cord", materials["black"])
-    cord.box((LAMP[0] - 0.006, LAMP[1] + 0.26, LAMP[2] - 0.006),
-             (LAMP[0] + 0.006, Y, LAMP[2] + 0.006), skip=("+y",))
+    cord.box((LAMP[0] - 0.006, LAMP[1] + 0.27, LAMP[2] - 0.006),
+             (LAMP[0] + 0.006, Y, LAMP[2] + 0.006), skip=("-y", "+y"))
     scene.add(cord)
     fitting = Object("spot fitting", materials["black"])
     circle = [(SPOT[0] + 0.045 * math.cos(2 * math.pi * k / 12),
@@ -301,14 +304,14 @@ def lights(scene, materials):
     fitting.prism(circle, SPOT[1] + 0.02, Y, skip=("top",))
     scene.add(fitting)
 
-    # A pendant of 5700 lm, warm; a 22 degree accent on the sculpture; a low winter sun behind thin
+    # A pendant of 7500 lm, warm; a 22 degree accent on the sculpture; a low winter sun behind thin
     # cloud (a clear one would be some 60 000 lx and hide everything else).
-    scene.light("pendant", "point", 450.0, LAMP, color=(1.0, 0.86, 0.68))
+    scene.light("pendant", "point", 600.0, LAMP, color=(1.0, 0.86, 0.68))
     target = ((PLINTH[0] + PLINTH[1]) / 2, SCULPTURE_HEIGHT, (PLINTH[2] + PLINTH[3]) / 2)
     scene.light("picture light", "spot", 3200.0, SPOT,
                 tuple(b - a for a, b in zip(SPOT, target)), color=(1.0, 0.93, 0.82),
                 cone=(12.0, 22.0))
-    scene.light("sun", "directional", 6000.0, (-2.0, 4.0, 5.5), SUN, color=(1.0, 0.94, 0.84))
+    scene.light("sun", "directional", 4500.0, (-2.0, 4.0, 5.5), SUN, color=(1.0, 0.94, 0.84))
 
 
 def main(path):
