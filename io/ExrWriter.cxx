@@ -3,6 +3,7 @@
 
 #include "io/AsideFile.h"
 #include "io/ExrHeader.h"
+#include "io/ExrThreads.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
@@ -175,7 +176,7 @@ void WritePart(Imf::MultiPartOutputFile& file, int index, const ExrPart& part)
   const bool tiled = part.TileWidth > 0;
   const int step = tiled
     ? part.TileHeight
-    : LinesPerChunk(static_cast<Imf::Compression>(part.Compression)) * 4;
+    : std::max(LinesPerChunk(static_cast<Imf::Compression>(part.Compression)) * 8, 64);
   std::vector<Block> blocks(part.Channels.size());
   for (long long begin = w.YMin; begin <= w.YMax; begin += step)
   {
@@ -229,7 +230,7 @@ void WriteExr(const std::string& fileName, const ExrImage& image, const ExrWrite
   {
     AsideStream stream(aside, fileName);
     Imf::MultiPartOutputFile file(
-      stream, headers.data(), static_cast<int>(headers.size()), false, 0);
+      stream, headers.data(), static_cast<int>(headers.size()), false, ExrThreads(options.Threads));
     for (std::size_t i = 0; i < image.size(); ++i)
     {
       WritePart(file, static_cast<int>(i), image[i]);

@@ -11,6 +11,8 @@ struct ExrWriteOptions
   /// NaN and infinities are written as they are. Else the first one is an error that names
   /// channel, pixel and value, and nothing is written.
   bool KeepNonFinite = false;
+  /// Threads that pack pixels (0: all). The bytes of the file do not depend on it.
+  int Threads = 0;
 };
 
 /// Writes an OpenEXR file of one part or several, scan lines or tiles.

@@ -293,6 +293,38 @@ TEST(ExrRoundTrip, LongAndForeignNames)
   EXPECT_EQ(image[0].Attributes, part.Attributes);
 }
 
+TEST(ExrRoundTrip, TheNumberOfThreadsDoesNotMatter)
+{
+  std::vector<float> values(640 * 480);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    values[i] = std::sin(0.001f * static_cast<float>(i)) + static_cast<float>(i % 3);
+  }
+  const auto bytes = [&](int threads, int tile) {
+    ExrPart part;
+    part.DataWindow = ExrBox::OfSize(640, 480);
+    part.TileWidth = part.TileHeight = tile;
+    for (const char* name : { "A", "B", "C" })
+    {
+      part.Channels.push_back(ExrChannel::View(name, values.data(), 640));
+    }
+    ExrWriteOptions options;
+    options.Threads = threads;
+    WriteExr(File("threads"), { part }, options);
+    std::ifstream in(File("threads"), std::ios::binary);
+    return std::string{ std::istreambuf_iterator<char>(in), {} };
+  };
+  for (int tile : { 0, 64 })
+  {
+    const std::string one = bytes(1, tile);
+    EXPECT_GT(one.size(), 10000u);
+    for (int threads : { 2, 0 })
+    {
+      EXPECT_EQ(bytes(threads, tile), one) << threads;
+    }
+  }
+}
+
 TEST(ExrRoundTrip, OnePixel)
 {
   const float value = -3.5f;
