@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkOpenColorIOPass: the same numbers as the CPU, background and depth kept, errors told.
 #include "color/ColorTransform.h"
+#include "vtkLinearFloatPass.h"
 #include "vtkOpenColorIOPass.h"
 
 #include "vtkActor.h"
@@ -8,6 +9,7 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCameraPass.h"
+#include "vtkImageData.h"
 #include "vtkImageProcessingPass.h"
 #include "vtkLightsPass.h"
 #include "vtkNew.h"
@@ -537,6 +539,25 @@ TEST_F(Pass, UnderACameraPassAsInParaView)
     EXPECT_EQ(this->Pixel(size / 4, size / 2), (std::array<int, 3>{ 188, 137, 99 }));
     EXPECT_LT(this->Renderer->GetZ(size / 4, size / 2), 1.0);
   }
+}
+
+TEST_F(Pass, AroundTheLinearFloatPass)
+{
+  this->MakeScene(1.0);
+  this->Renderer->SetBackground(0.2, 0.4, 0.6);
+  vtkNew<vtkLinearFloatPass> linear;
+  linear->SetSamples(3);
+  this->Display->SetDelegatePass(linear);
+  this->Display->SetExposure(1);
+  this->Window->Render();
+  // What is shown is 2^1 times what is kept.
+  EXPECT_EQ(this->Pixel(3 * size / 4, size / 2), (std::array<int, 3>{ 51, 102, 153 }));
+  EXPECT_EQ(this->Pixel(size / 4, size / 2), (std::array<int, 3>{ 255, 188, 137 }));
+  vtkImageData* kept = linear->GetColor();
+  ASSERT_NE(kept, nullptr);
+  EXPECT_EQ(kept->GetScalarComponentAsDouble(size / 4, size / 2, 0, 0), 0.5);
+  EXPECT_EQ(kept->GetScalarComponentAsDouble(size / 4, size / 2, 0, 2), 0.125);
+  EXPECT_EQ(kept->GetScalarComponentAsDouble(3 * size / 4, size / 2, 0, 3), 0.0);
 }
 
 TEST_F(Pass, AnnotationsKeepTheirColours)
