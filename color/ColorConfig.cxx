@@ -23,9 +23,11 @@ std::shared_ptr<const ColorConfig::Impl> Adopt(const OCIO::ConstConfigRcPtr& con
 
 OCIO::ConstConfigRcPtr Load(const std::string& fileName, const std::string& named)
 {
+  // "ocio://default" and the like, from OpenColorIO 2.2 on, are no files.
+  const bool builtInOcio = fileName.rfind("ocio://", 0) == 0;
   std::error_code error;
   const auto status = std::filesystem::status(fileName, error);
-  if (!std::filesystem::exists(status))
+  if (!builtInOcio && !std::filesystem::exists(status))
   {
     throw ColorError("no OpenColorIO config '" + fileName + "'" + named);
   }

@@ -4,6 +4,7 @@
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfDoubleAttribute.h>
+#include <ImfEnvmapAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFloatVectorAttribute.h>
 #include <ImfIntAttribute.h>
@@ -18,6 +19,10 @@ namespace radiometry::io
 {
 namespace
 {
+
+/// What the attribute "envmap" is as text.
+const char* const latLongMap = "latlong";
+const char* const cubeMap = "cube";
 
 /// OpenEXR's limit on the length of names.
 constexpr std::size_t longestName = 255;
@@ -79,7 +84,16 @@ struct Insert
     this->Name == "whiteLuminance" ? this->As<Imf::FloatAttribute>(static_cast<float>(v))
                                    : this->As<Imf::DoubleAttribute>(v);
   }
-  void operator()(const std::string& v) { this->As<Imf::StringAttribute>(v); }
+  void operator()(const std::string& v)
+  {
+    if (this->Name == "envmap")
+    {
+      this->As<Imf::EnvmapAttribute>(
+        v == cubeMap ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+      return;
+    }
+    this->As<Imf::StringAttribute>(v);
+  }
   void operator()(const std::array<float, 2>& v)
   {
     this->As<Imf::V2fAttribute>(Imath::V2f(v[0], v[1]));
@@ -120,6 +134,10 @@ bool Extract(const Imf::Attribute& a, ExrAttribute& out)
   else if (const auto* d = As<Imf::DoubleAttribute>(a))
   {
     out = d->value();
+  }
+  else if (const auto* map = As<Imf::EnvmapAttribute>(a))
+  {
+    out = std::string(map->value() == Imf::ENVMAP_CUBE ? cubeMap : latLongMap);
   }
   else if (const auto* s = As<Imf::StringAttribute>(a))
   {
@@ -232,6 +250,11 @@ Imf::Header MakeHeader(const std::string& file, const ExrPart& part, bool named)
     if (name == "chromaticities" && !std::holds_alternative<ExrChromaticities>(value))
     {
       throw FileError(file, "attribute 'chromaticities' must be eight numbers (xy of R, G, B, W)");
+    }
+    const auto* text = std::get_if<std::string>(&value);
+    if (name == "envmap" && !(text && (*text == latLongMap || *text == cubeMap)))
+    {
+      throw FileError(file, "attribute 'envmap' must be the text 'latlong' or 'cube'");
     }
     std::visit(Insert{ header, name }, value);
   }

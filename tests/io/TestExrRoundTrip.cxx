@@ -194,6 +194,7 @@ TEST(ExrRoundTrip, WindowsAttributesAndParts)
   part.Attributes = { { "chromaticities", Rec709Chromaticities() },
     { "whiteLuminance", 250.0f }, { "adoptedNeutral", std::array<float, 2>{ 0.3127f, 0.329f } },
     { "units:Irradiance", std::string("W/m^2") }, { "seconds", 1.0 / 3.0 }, { "bands", 3 },
+    { "envmap", std::string("cube") },
     { "options", std::vector<std::string>{ "Occlusion=1", "" } },
     { "bounds", std::array<double, 3>{ 1e300, -0.0, 0.1 } },
     { "wavelengths", std::vector<float>{ 0.4f, 0.5f } },
@@ -273,6 +274,12 @@ TEST(ExrRoundTrip, WhatIsNoImageIsAnError)
   EXPECT_THROW(WriteExr(File("no"), { part }), FileError);
   part = Picture(values);
   part.Attributes["compression"] = std::string("mine");
+  EXPECT_THROW(WriteExr(File("no"), { part }), FileError);
+  part = Picture(values);
+  part.Attributes["envmap"] = std::string("sphere");
+  EXPECT_THROW(WriteExr(File("no"), { part }), FileError);
+  part = Picture(values);
+  part.Attributes["chromaticities"] = 1.0;
   EXPECT_THROW(WriteExr(File("no"), { part }), FileError);
   part = Picture(values);
   part.Channels[0].Name = "";
