@@ -139,10 +139,7 @@ std::vector<std::string> ColorConfig::Looks() const
   return names;
 }
 
-std::string ColorConfig::DefaultDisplay() const
-{
-  return this->Data->Config->getDefaultDisplay();
-}
+std::string ColorConfig::DefaultDisplay() const { return this->Data->Config->getDefaultDisplay(); }
 
 std::string ColorConfig::DefaultView(const std::string& display) const
 {

@@ -56,8 +56,8 @@ std::string AppendSource(const ColorConfig& config, const TransformOptions& opti
     const char* bridge = Interchange(ocio);
     if (own.HasColorSpace(wanted) && bridge)
     {
-      auto step = OCIO::Config::GetProcessorFromConfigs(
-        own.Handle().Config, wanted.c_str(), ocio, bridge);
+      auto step =
+        OCIO::Config::GetProcessorFromConfigs(own.Handle().Config, wanted.c_str(), ocio, bridge);
       group->appendTransform(step->createGroupTransform());
       source = wanted;
       return ocio->getColorSpace(bridge)->getName();
@@ -93,8 +93,8 @@ void AppendExposure(OCIO::GroupTransformRcPtr group, double stops)
   group->appendTransform(step);
 }
 
-void AppendLook(
-  const ColorConfig& config, const std::string& look, const std::string& space, OCIO::GroupTransformRcPtr group)
+void AppendLook(const ColorConfig& config, const std::string& look, const std::string& space,
+  OCIO::GroupTransformRcPtr group)
 {
   const auto& ocio = config.Handle().Config;
   if (look.empty())
@@ -190,7 +190,8 @@ double Finite(double stops)
 {
   if (!std::isfinite(stops))
   {
-    throw ColorError("exposure is " + std::to_string(stops) + ": expected a finite number of stops");
+    throw ColorError(
+      "exposure is " + std::to_string(stops) + ": expected a finite number of stops");
   }
   return stops;
 }
@@ -214,21 +215,16 @@ ColorTransform::ColorTransform(const ColorConfig& config, const TransformOptions
   }
   catch (const std::exception& e)
   {
-    throw ColorError("the config '" + config.Origin() + "' cannot make this transform: " + e.what());
+    throw ColorError(
+      "the config '" + config.Origin() + "' cannot make this transform: " + e.what());
   }
 }
 
 ColorTransform::~ColorTransform() = default;
 
-const TransformOptions& ColorTransform::Used() const
-{
-  return this->Data->Used;
-}
+const TransformOptions& ColorTransform::Used() const { return this->Data->Used; }
 
-bool ColorTransform::PassesDataThrough() const
-{
-  return this->Data->PassesDataThrough;
-}
+bool ColorTransform::PassesDataThrough() const { return this->Data->PassesDataThrough; }
 
 void ColorTransform::SetExposure(double stops)
 {

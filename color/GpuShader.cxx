@@ -8,10 +8,7 @@ namespace radiometry::color
 namespace
 {
 
-bool IsLinear(OCIO::Interpolation interpolation)
-{
-  return interpolation != OCIO::INTERP_NEAREST;
-}
+bool IsLinear(OCIO::Interpolation interpolation) { return interpolation != OCIO::INTERP_NEAREST; }
 
 GpuTexture Flat(const OCIO::GpuShaderDesc& description, unsigned index)
 {
@@ -69,7 +66,8 @@ GpuShader ColorTransform::Shader(
     description->setLanguage(OCIO::GPU_LANGUAGE_GLSL_1_3);
     description->setFunctionName(functionName.c_str());
     description->setResourcePrefix(resourcePrefix.c_str());
-    this->Data->Processor->getOptimizedGPUProcessor(Optimization)->extractGpuShaderInfo(description);
+    this->Data->Processor->getOptimizedGPUProcessor(Optimization)
+      ->extractGpuShaderInfo(description);
 
     GpuShader shader;
     shader.FunctionName = functionName;

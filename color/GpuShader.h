@@ -10,13 +10,13 @@ namespace radiometry::color
 /// A look-up table that the shader text samples. All are 32-bit float, not sRGB, clamped to edge.
 struct GpuTexture
 {
-  std::string Sampler;  ///< the name of the sampler uniform in the text
-  int Dimensions = 2;   ///< 1, 2 or 3
+  std::string Sampler; ///< the name of the sampler uniform in the text
+  int Dimensions = 2;  ///< 1, 2 or 3
   int Width = 0;
   int Height = 1;
   int Depth = 1;
-  int Components = 3;   ///< 1 or 3
-  bool Linear = true;   ///< linear interpolation, else nearest
+  int Components = 3;        ///< 1 or 3
+  bool Linear = true;        ///< linear interpolation, else nearest
   std::vector<float> Values; ///< Width * Height * Depth * Components, x fastest
 };
 

@@ -27,10 +27,7 @@ Vector3 Apply(const Matrix3& m, const Vector3& v)
   return result;
 }
 
-Matrix3 Scale(const Vector3& s)
-{
-  return { s[0], 0, 0, 0, s[1], 0, 0, 0, s[2] };
-}
+Matrix3 Scale(const Vector3& s) { return { s[0], 0, 0, 0, s[1], 0, 0, 0, s[2] }; }
 
 /// Lam (1985), as used by the ICC and by the ACES transforms.
 const Matrix3 bradford = { 0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685,
@@ -80,8 +77,7 @@ Matrix3 Inverse(const Matrix3& m)
     m[1] * m[5] - m[2] * m[4], m[5] * m[6] - m[3] * m[8], m[0] * m[8] - m[2] * m[6],
     m[2] * m[3] - m[0] * m[5], m[3] * m[7] - m[4] * m[6], m[1] * m[6] - m[0] * m[7],
     m[0] * m[4] - m[1] * m[3] };
-  const double determinant =
-    m[0] * cofactors[0] + m[1] * cofactors[3] + m[2] * cofactors[6];
+  const double determinant = m[0] * cofactors[0] + m[1] * cofactors[3] + m[2] * cofactors[6];
   double size = 1.0;
   for (int i = 0; i < 3; ++i)
   {

@@ -13,9 +13,9 @@ struct Primaries
 {
   std::array<double, 2> Red, Green, Blue, White;
 
-  static Primaries Rec709();   ///< Rec. ITU-R BT.709, white D65
-  static Primaries ACES_AP0(); ///< SMPTE ST 2065-1
-  static Primaries ACES_AP1(); ///< S-2014-004
+  static Primaries Rec709();    ///< Rec. ITU-R BT.709, white D65
+  static Primaries ACES_AP0();  ///< SMPTE ST 2065-1
+  static Primaries ACES_AP1();  ///< S-2014-004
   static Primaries DisplayP3(); ///< SMPTE RP 431-2 primaries, white D65
 };
 

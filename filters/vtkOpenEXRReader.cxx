@@ -94,8 +94,7 @@ std::vector<Group> GroupChannels(const io::ExrPart& part)
           { ".X", ".Y", ".Z" }, numbers })
       {
         const bool own = suffixes.size() > 1 &&
-          std::find(suffixes.begin(), suffixes.end(), name.substr(dot)) !=
-          suffixes.end();
+          std::find(suffixes.begin(), suffixes.end(), name.substr(dot)) != suffixes.end();
         if (own && Take(left, base, suffixes, taken))
         {
           groups.push_back({ base, taken });
@@ -155,10 +154,7 @@ struct AsArray
   }
   vtkSmartPointer<vtkAbstractArray> operator()(int v) const { return Of<vtkIntArray>(&v, 1); }
   vtkSmartPointer<vtkAbstractArray> operator()(float v) const { return Of<vtkFloatArray>(&v, 1); }
-  vtkSmartPointer<vtkAbstractArray> operator()(double v) const
-  {
-    return Of<vtkDoubleArray>(&v, 1);
-  }
+  vtkSmartPointer<vtkAbstractArray> operator()(double v) const { return Of<vtkDoubleArray>(&v, 1); }
   vtkSmartPointer<vtkAbstractArray> operator()(const std::string& v) const
   {
     return Of<vtkStringArray>(&v, 1);
@@ -191,15 +187,9 @@ void AddWindow(vtkFieldData* field, const char* name, const io::ExrBox& box)
 vtkStandardNewMacro(vtkOpenEXRReader);
 
 //------------------------------------------------------------------------------
-vtkOpenEXRReader::vtkOpenEXRReader()
-{
-  this->SetNumberOfInputPorts(0);
-}
+vtkOpenEXRReader::vtkOpenEXRReader() { this->SetNumberOfInputPorts(0); }
 
-vtkOpenEXRReader::~vtkOpenEXRReader()
-{
-  this->SetFileName(nullptr);
-}
+vtkOpenEXRReader::~vtkOpenEXRReader() { this->SetFileName(nullptr); }
 
 //------------------------------------------------------------------------------
 int vtkOpenEXRReader::CanReadFile(const char* fileName)
@@ -228,7 +218,8 @@ int vtkOpenEXRReader::RequestInformation(
     this->NumberOfParts = static_cast<int>(image.size());
     if (this->Part >= this->NumberOfParts)
     {
-      throw io::FileError(file, "Part = " + std::to_string(this->Part) + ": expected 0 to " +
+      throw io::FileError(file,
+        "Part = " + std::to_string(this->Part) + ": expected 0 to " +
           std::to_string(this->NumberOfParts - 1));
     }
     const io::ExrPart& part = image[this->Part];
@@ -238,8 +229,8 @@ int vtkOpenEXRReader::RequestInformation(
     int extent[6] = { 0, static_cast<int>(w.Width()) - 1, 0, static_cast<int>(w.Height()) - 1, 0,
       0 };
     info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-    info->Set(vtkDataObject::SPACING(), part.PixelAspectRatio > 0 ? part.PixelAspectRatio : 1.0,
-      1.0, 1.0);
+    info->Set(
+      vtkDataObject::SPACING(), part.PixelAspectRatio > 0 ? part.PixelAspectRatio : 1.0, 1.0, 1.0);
     info->Set(vtkDataObject::ORIGIN(), double(w.XMin) - part.DisplayWindow.XMin,
       double(part.DisplayWindow.YMax) - w.YMax, 0.0);
     return 1;

@@ -82,8 +82,8 @@ std::string Numbers(vtkDataArray* array)
   for (vtkIdType i = 0; i < array->GetNumberOfTuples() * array->GetNumberOfComponents(); ++i)
   {
     const int n = array->GetNumberOfComponents();
-    std::snprintf(number, sizeof number, "%.17g",
-      array->GetComponent(i / n, static_cast<int>(i % n)));
+    std::snprintf(
+      number, sizeof number, "%.17g", array->GetComponent(i / n, static_cast<int>(i % n)));
     text += (i ? " " : "") + std::string(number);
   }
   return text;
@@ -264,8 +264,8 @@ void vtkOpenEXRWriter::Assembly::AddAttributes(vtkImageData* image)
   {
     vtkAbstractArray* array = field->GetAbstractArray(i);
     io::ExrAttribute value;
-    if (array->GetName() && *array->GetName() &&
-      !io::IsStructuralAttribute(array->GetName()) && Describe(array, value))
+    if (array->GetName() && *array->GetName() && !io::IsStructuralAttribute(array->GetName()) &&
+      Describe(array, value))
     {
       attributes[array->GetName()] = value;
     }
@@ -305,10 +305,7 @@ vtkOpenEXRWriter::vtkOpenEXRWriter()
   }
 }
 
-vtkOpenEXRWriter::~vtkOpenEXRWriter()
-{
-  this->SetFileName(nullptr);
-}
+vtkOpenEXRWriter::~vtkOpenEXRWriter() { this->SetFileName(nullptr); }
 
 //------------------------------------------------------------------------------
 int vtkOpenEXRWriter::FillInputPortInformation(int, vtkInformation* info)

@@ -39,8 +39,9 @@ void CheckName(const std::string& file, const std::string& kind, const std::stri
 {
   if (name.empty() || name.size() > longestName || name.find('\0') != std::string::npos)
   {
-    throw FileError(file, kind + " '" + name.substr(0, 40) + "' has a name of " +
-        std::to_string(name.size()) + " characters: expected 1 to 255");
+    throw FileError(file,
+      kind + " '" + name.substr(0, 40) + "' has a name of " + std::to_string(name.size()) +
+        " characters: expected 1 to 255");
   }
 }
 
@@ -55,15 +56,9 @@ Imf::Chromaticities FromArray(const ExrChromaticities& c)
   return { { c[0], c[1] }, { c[2], c[3] }, { c[4], c[5] }, { c[6], c[7] } };
 }
 
-Imath::Box2i ToBox(const ExrBox& box)
-{
-  return { { box.XMin, box.YMin }, { box.XMax, box.YMax } };
-}
+Imath::Box2i ToBox(const ExrBox& box) { return { { box.XMin, box.YMin }, { box.XMax, box.YMax } }; }
 
-ExrBox FromBox(const Imath::Box2i& box)
-{
-  return { box.min.x, box.min.y, box.max.x, box.max.y };
-}
+ExrBox FromBox(const Imath::Box2i& box) { return { box.min.x, box.min.y, box.max.x, box.max.y }; }
 
 /// Puts one attribute of any type into the header.
 struct Insert
@@ -88,8 +83,7 @@ struct Insert
   {
     if (this->Name == "envmap")
     {
-      this->As<Imf::EnvmapAttribute>(
-        v == cubeMap ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+      this->As<Imf::EnvmapAttribute>(v == cubeMap ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
       return;
     }
     this->As<Imf::StringAttribute>(v);
@@ -180,17 +174,15 @@ void CheckWindow(const std::string& file, const ExrBox& box)
 {
   if (box.Width() < 1 || box.Height() < 1)
   {
-    throw FileError(file, "the data window has " + std::to_string(box.Width()) + " x " +
-        std::to_string(box.Height()) + " pixels: expected at least one");
+    throw FileError(file,
+      "the data window has " + std::to_string(box.Width()) + " x " + std::to_string(box.Height()) +
+        " pixels: expected at least one");
   }
 }
 
 } // namespace
 
-bool IsStructuralAttribute(const std::string& name)
-{
-  return StructuralNames().count(name) > 0;
-}
+bool IsStructuralAttribute(const std::string& name) { return StructuralNames().count(name) > 0; }
 
 long long CountSamples(int sampling, int min, int max)
 {
@@ -213,8 +205,9 @@ Imf::Header MakeHeader(const std::string& file, const ExrPart& part, bool named)
   {
     if (part.TileWidth < 1 || part.TileHeight < 1)
     {
-      throw FileError(file, "tiles of " + std::to_string(part.TileWidth) + " x " +
-          std::to_string(part.TileHeight) + ": expected both above 0, or both 0 for scan lines");
+      throw FileError(file,
+        "tiles of " + std::to_string(part.TileWidth) + " x " + std::to_string(part.TileHeight) +
+          ": expected both above 0, or both 0 for scan lines");
     }
     header.setTileDescription(Imf::TileDescription(part.TileWidth, part.TileHeight));
   }
@@ -281,8 +274,8 @@ ExrPart ReadHeader(const Imf::Header& header)
     channel.Type = c.channel().type == Imf::HALF
       ? ExrPixelType::Half
       : (c.channel().type == Imf::UINT ? ExrPixelType::UInt : ExrPixelType::Float);
-    channel.Kind = c.channel().type == Imf::UINT ? ExrChannel::Memory::UInt32
-                                                 : ExrChannel::Memory::Float32;
+    channel.Kind =
+      c.channel().type == Imf::UINT ? ExrChannel::Memory::UInt32 : ExrChannel::Memory::Float32;
     channel.XSampling = c.channel().xSampling;
     channel.YSampling = c.channel().ySampling;
     part.Channels.push_back(channel);

@@ -67,9 +67,9 @@ ExrChromaticities Rec709Chromaticities();
 
 /// What a header can say beside its pixels. A file may have other types: reading names them in
 /// ExrPart::SkippedAttributes. "envmap" is the text "latlong" or "cube".
-using ExrAttribute = std::variant<int, float, double, std::string, std::array<float, 2>,
-  std::array<float, 3>, std::array<double, 3>, std::vector<float>, std::vector<std::string>,
-  ExrChromaticities>;
+using ExrAttribute =
+  std::variant<int, float, double, std::string, std::array<float, 2>, std::array<float, 3>,
+    std::array<double, 3>, std::vector<float>, std::vector<std::string>, ExrChromaticities>;
 
 /// True for the names that the format keeps for itself (channels, dataWindow, ...): no attribute of
 /// ExrPart::Attributes may have one.

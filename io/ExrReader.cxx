@@ -188,7 +188,8 @@ void CheckFinite(const std::string& file, const ExrPart& part)
       const float value = static_cast<const float*>(channel.Data)[k];
       if (!std::isfinite(value))
       {
-        throw FileError(file, "channel '" + channel.Name + "', pixel (" +
+        throw FileError(file,
+          "channel '" + channel.Name + "', pixel (" +
             std::to_string(w.XMin + (k % columns) * channel.XSampling) + ", " +
             std::to_string(w.YMin + (k / columns) * channel.YSampling) +
             "): " + std::to_string(value) + ": expected a finite number");
@@ -213,11 +214,10 @@ void ReadPart(Imf::MultiPartInputFile& file, int index, ExrPart& part)
       auto values = samples.Values;
       values->reserve(std::max<long long>(columns * rows, 1)); // the address never changes after
       frame.insert(channel.Name,
-        Imf::Slice::Make(type, values->data(), window, 4, 4 * columns, channel.XSampling,
-          channel.YSampling));
+        Imf::Slice::Make(
+          type, values->data(), window, 4, 4 * columns, channel.XSampling, channel.YSampling));
       grow.push_back([values, columns, w, &channel](long long yLast) {
-        values->resize(
-          columns * CountSamples(channel.YSampling, w.YMin, static_cast<int>(yLast)));
+        values->resize(columns * CountSamples(channel.YSampling, w.YMin, static_cast<int>(yLast)));
       });
       publish.push_back([values, columns, &channel] {
         channel.Owner = values;

@@ -94,7 +94,8 @@ void CheckChannel(
       {
         char number[40];
         std::snprintf(number, sizeof number, "%.9g", value);
-        throw FileError(file, "channel '" + channel.Name + "', pixel (" +
+        throw FileError(file,
+          "channel '" + channel.Name + "', pixel (" +
             std::to_string(w.XMin + i * channel.XSampling) + ", " +
             std::to_string(w.YMin + j * channel.YSampling) + "): " + number + ": " + objection);
       }
@@ -126,8 +127,8 @@ struct Block
       ? Imf::HALF
       : (channel.Type == ExrPixelType::UInt ? Imf::UINT : Imf::FLOAT);
     const Imath::Box2i rows{ { window.XMin, yBegin }, { window.XMax, yEnd - 1 } };
-    return Imf::Slice::Make(type, this->Bytes.data(), rows, size, size * columns,
-      channel.XSampling, channel.YSampling);
+    return Imf::Slice::Make(
+      type, this->Bytes.data(), rows, size, size * columns, channel.XSampling, channel.YSampling);
   }
 
 private:

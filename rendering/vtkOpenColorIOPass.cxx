@@ -46,8 +46,8 @@ public:
   }
   ~WithoutBackground()
   {
-    this->Set(this->Gradient, this->Textured, this->Alpha, this->Color[0], this->Color[1],
-      this->Color[2]);
+    this->Set(
+      this->Gradient, this->Textured, this->Alpha, this->Color[0], this->Color[1], this->Color[2]);
   }
 
 private:
@@ -116,8 +116,8 @@ vtkSmartPointer<vtkTextureObject> Upload(
       texture->Create2DFromRaw(width, height, components, VTK_FLOAT, values);
       break;
     default:
-      texture->Create3DFromRaw(width, height, static_cast<unsigned int>(description.Depth),
-        components, VTK_FLOAT, values);
+      texture->Create3DFromRaw(
+        width, height, static_cast<unsigned int>(description.Depth), components, VTK_FLOAT, values);
   }
   return texture;
 }
@@ -172,10 +172,7 @@ void vtkOpenColorIOPass::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
-std::string vtkOpenColorIOPass::GetErrorMessage() const
-{
-  return this->Data->Error;
-}
+std::string vtkOpenColorIOPass::GetErrorMessage() const { return this->Data->Error; }
 
 std::string vtkOpenColorIOPass::GetFragmentShaderSource() const
 {
@@ -254,8 +251,7 @@ void vtkOpenColorIOPass::Internals::RenderDelegate(
 }
 
 //------------------------------------------------------------------------------
-void vtkOpenColorIOPass::Internals::Rebuild(
-  vtkOpenColorIOPass* self, vtkOpenGLRenderWindow* window)
+void vtkOpenColorIOPass::Internals::Rebuild(vtkOpenColorIOPass* self, vtkOpenGLRenderWindow* window)
 {
   const std::string names = self->ConfigFileName + '\n' + self->SourceColorSpace + '\n' +
     self->Display + '\n' + self->View + '\n' + self->Look +

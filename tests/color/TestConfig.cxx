@@ -18,10 +18,7 @@ namespace
 
 struct Environment
 {
-  explicit Environment(const char* value)
-  {
-    value ? setenv("OCIO", value, 1) : unsetenv("OCIO");
-  }
+  explicit Environment(const char* value) { value ? setenv("OCIO", value, 1) : unsetenv("OCIO"); }
   ~Environment() { unsetenv("OCIO"); }
 };
 

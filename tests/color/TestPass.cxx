@@ -127,9 +127,8 @@ struct Errors
   explicit Errors(vtkObject* object)
   {
     this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void*) {
-      ++static_cast<Errors*>(self)->Count;
-    });
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void*) { ++static_cast<Errors*>(self)->Count; });
     object->AddObserver(vtkCommand::ErrorEvent, this->Command);
   }
 };
@@ -272,9 +271,8 @@ TEST_F(Pass, AgreesWithTheCpuOnEveryDisplayAndViewOfOurConfig)
         color::ColorTransform(config, options).Apply(expected.data(), size * size, 4);
         const double worst = Worst(this->ShowField(field), expected);
         // A power law without a linear foot has an infinite slope at black.
-        const double share = display == "Rec.1886"
-          ? WorstOfPowerLaw(this->Read->Pixels, expected)
-          : worst / 5e-6;
+        const double share =
+          display == "Rec.1886" ? WorstOfPowerLaw(this->Read->Pixels, expected) : worst / 5e-6;
         EXPECT_LE(share, 1.0) << display << ", " << view << ", " << look << ": " << worst;
         std::cout << display << ", " << view << (*look ? ", with look" : "") << ": " << worst
                   << "\n";
@@ -300,7 +298,8 @@ TEST_F(Pass, AgreesWithTheCpuOnWildColours)
       // Black clamped to 0 by one and to 1e-10 by the other is 7e-5 of a power law's signal: there
       // the light is compared.
       const double power = display == "Rec.1886" ? 2.4 : 1.0;
-      const auto light = [power](float v) { return std::copysign(std::pow(std::abs(v), power), v); };
+      const auto light = [power](
+                           float v) { return std::copysign(std::pow(std::abs(v), power), v); };
       auto expected = field;
       transform.Apply(expected.data(), size * size, 4);
       std::vector<double> allowed(field.size(), 5e-6);

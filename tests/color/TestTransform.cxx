@@ -84,8 +84,8 @@ TEST(Transform, PublishedNumberOfTheAcesView)
     view.Display = display;
     view.View = "ACES";
     const Colour shown = Convert(Own(), view, probe);
-    ExpectNear(Convert(display, "CIE-XYZ-D65", shown),
-      { 0.34128153, 0.32533440, 0.24217427 }, 1e-6);
+    ExpectNear(
+      Convert(display, "CIE-XYZ-D65", shown), { 0.34128153, 0.32533440, 0.24217427 }, 1e-6);
   }
 }
 
@@ -165,8 +165,10 @@ TEST(Transform, TwoTransformsKeepTheirOwnExposure)
   a.SetExposure(3);
   Colour c = probe;
   b.Apply(c.data(), 1, 3);
-  ExpectNear(c, { Convert("Linear Rec.709", "ACEScg", probe)[0],
-    Convert("Linear Rec.709", "ACEScg", probe)[1], Convert("Linear Rec.709", "ACEScg", probe)[2] }, 0);
+  ExpectNear(c,
+    { Convert("Linear Rec.709", "ACEScg", probe)[0], Convert("Linear Rec.709", "ACEScg", probe)[1],
+      Convert("Linear Rec.709", "ACEScg", probe)[2] },
+    0);
 }
 
 TEST(Transform, DataPassesUntouched)
@@ -256,20 +258,20 @@ TEST(Transform, ConfigOfTheAcademyGivesTheSamePictures)
 
 TEST(Transform, Rec709IsBroughtToAConfigThatLacksIt)
 {
-  const ColorConfig bridged = ColorConfig::FromText(
-    "ocio_profile_version: 2\n"
-    "roles: {scene_linear: work, default: work, aces_interchange: work}\n"
-    "displays: {screen: [!<View> {name: Plain, colorspace: work}]}\n"
-    "colorspaces:\n  - !<ColorSpace> {name: work}\n");
+  const ColorConfig bridged =
+    ColorConfig::FromText("ocio_profile_version: 2\n"
+                          "roles: {scene_linear: work, default: work, aces_interchange: work}\n"
+                          "displays: {screen: [!<View> {name: Plain, colorspace: work}]}\n"
+                          "colorspaces:\n  - !<ColorSpace> {name: work}\n");
   TransformOptions options;
   const Colour expected = Convert("Linear Rec.709", "ACES2065-1", probe);
   ExpectNear(Convert(bridged, options, probe), { expected[0], expected[1], expected[2] }, 2e-7);
 
-  const ColorConfig alone = ColorConfig::FromText(
-    "ocio_profile_version: 2\n"
-    "roles: {scene_linear: work, default: work}\n"
-    "displays: {screen: [!<View> {name: Plain, colorspace: work}]}\n"
-    "colorspaces:\n  - !<ColorSpace> {name: work}\n");
+  const ColorConfig alone =
+    ColorConfig::FromText("ocio_profile_version: 2\n"
+                          "roles: {scene_linear: work, default: work}\n"
+                          "displays: {screen: [!<View> {name: Plain, colorspace: work}]}\n"
+                          "colorspaces:\n  - !<ColorSpace> {name: work}\n");
   EXPECT_EQ(ColorTransform(alone, options).SourceColorSpace(), "work");
   options.SourceColorSpace = "Linear Rec.709";
   EXPECT_THROW(ColorTransform(alone, options), ColorError);

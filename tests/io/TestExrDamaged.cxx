@@ -63,10 +63,7 @@ int ReadInChild(const std::string& file)
   return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-bool Clean(int outcome)
-{
-  return outcome == wasRead || outcome == wasRefused;
-}
+bool Clean(int outcome) { return outcome == wasRead || outcome == wasRefused; }
 
 } // namespace
 

@@ -19,10 +19,10 @@ namespace
 
 const fs::path folder = RADIOMETRY_SHARED_DATA "/exr";
 
-#define NEEDS_DATA()                                                                               \
-  if (!fs::exists(folder))                                                                         \
-  {                                                                                                \
-    GTEST_SKIP() << "no " << folder;                                                               \
+#define NEEDS_DATA()                 \
+  if (!fs::exists(folder))           \
+  {                                  \
+    GTEST_SKIP() << "no " << folder; \
   }
 
 color::Primaries PrimariesOf(const ExrPart& part)
@@ -38,8 +38,8 @@ color::Primaries PrimariesOf(const ExrPart& part)
 std::vector<double> InRec709(const std::string& name)
 {
   const ExrPart part = ReadExr((folder / "Chromaticities" / name).string())[0];
-  const auto m = color::Multiply(
-    color::Inverse(color::RgbToXyz(color::Primaries::Rec709())), color::RgbToXyz(PrimariesOf(part)));
+  const auto m = color::Multiply(color::Inverse(color::RgbToXyz(color::Primaries::Rec709())),
+    color::RgbToXyz(PrimariesOf(part)));
   std::vector<double> pixels;
   for (long long y = 0; y < part.DataWindow.Height(); ++y)
   {
@@ -189,8 +189,7 @@ TEST(ExrRealFiles, EveryOneIsReadAndComesBackTheSame)
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
   {
-    if (entry.path().extension() != ".exr" ||
-      entry.path().parent_path().filename() == "Damaged")
+    if (entry.path().extension() != ".exr" || entry.path().parent_path().filename() == "Damaged")
     {
       continue;
     }

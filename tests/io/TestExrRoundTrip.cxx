@@ -191,11 +191,10 @@ TEST(ExrRoundTrip, WindowsAttributesAndParts)
   part.DataWindow = { -5, 7, -5 + width - 1, 7 + height - 1 };
   part.DisplayWindow = { 0, 0, 99, 79 };
   part.PixelAspectRatio = 1.25f;
-  part.Attributes = { { "chromaticities", Rec709Chromaticities() },
-    { "whiteLuminance", 250.0f }, { "adoptedNeutral", std::array<float, 2>{ 0.3127f, 0.329f } },
+  part.Attributes = { { "chromaticities", Rec709Chromaticities() }, { "whiteLuminance", 250.0f },
+    { "adoptedNeutral", std::array<float, 2>{ 0.3127f, 0.329f } },
     { "units:Irradiance", std::string("W/m^2") }, { "seconds", 1.0 / 3.0 }, { "bands", 3 },
-    { "envmap", std::string("cube") },
-    { "options", std::vector<std::string>{ "Occlusion=1", "" } },
+    { "envmap", std::string("cube") }, { "options", std::vector<std::string>{ "Occlusion=1", "" } },
     { "bounds", std::array<double, 3>{ 1e300, -0.0, 0.1 } },
     { "wavelengths", std::vector<float>{ 0.4f, 0.5f } },
     { "up", std::array<float, 3>{ 0, 0, 1 } } };
@@ -220,6 +219,41 @@ TEST(ExrRoundTrip, WindowsAttributesAndParts)
   ExpectSameBits(image[1].Channels[0], values);
   EXPECT_EQ(ReadExrHeaders(File("parts")).size(), 2u);
   EXPECT_THROW(WriteExr(File("parts"), { part, part }), FileError);
+}
+
+TEST(ExrRoundTrip, SubSampledChannels)
+{
+  std::vector<float> full(8 * 6);
+  std::vector<float> coarse(4 * 2);
+  for (int i = 0; i < 48; ++i)
+  {
+    full[i] = static_cast<float>(i);
+  }
+  for (int i = 0; i < 8; ++i)
+  {
+    coarse[i] = 100.0f + static_cast<float>(i);
+  }
+  ExrPart part;
+  part.DataWindow = { 2, 3, 9, 8 };
+  part.Channels = { ExrChannel::View("Y", full.data(), 8),
+    ExrChannel::View("Chroma", coarse.data(), 4) };
+  part.Channels[1].XSampling = 2;
+  part.Channels[1].YSampling = 3;
+  WriteExr(File("sampled"), { part });
+  const ExrImage image = ReadExr(File("sampled"));
+  const ExrChannel& chroma = *image[0].Find("Chroma");
+  EXPECT_EQ(chroma.XSampling, 2);
+  EXPECT_EQ(chroma.YSampling, 3);
+  for (int j = 0; j < 6; ++j)
+  {
+    for (int i = 0; i < 8; ++i)
+    {
+      ASSERT_EQ(image[0].Find("Y")->At(i, j), full[8 * j + i]);
+      ASSERT_EQ(chroma.At(i / 2, j / 3), coarse[4 * (j / 3) + i / 2]);
+    }
+  }
+  part.DataWindow = { 1, 3, 8, 8 };
+  EXPECT_THROW(WriteExr(File("sampled"), { part }), FileError);
 }
 
 TEST(ExrRoundTrip, NonFiniteIsAnErrorThatNamesThePixel)
