@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenColorIOPass.h"
 
+#include "DisplayPassParts.h"
 #include "color/ColorTransform.h"
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenColorIODisplayFS.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
@@ -24,103 +26,15 @@
 #include <vector>
 
 namespace color = radiometry::color;
+using displaypass::Area;
+using displaypass::AreaOf;
+using displaypass::WithoutBackground;
 
 namespace
 {
 
+/// The name that glsl/vtkOpenColorIODisplayFS.glsl calls the transform by.
 const char* const functionName = "radiometryToDisplay";
-
-/// The renderer clears to nothing while the delegate draws, so that the background is neither
-/// converted nor mixed into what lies translucent over it.
-class WithoutBackground
-{
-public:
-  explicit WithoutBackground(vtkRenderer* renderer)
-    : Renderer(renderer)
-    , Gradient(renderer->GetGradientBackground())
-    , Textured(renderer->GetTexturedBackground())
-    , Alpha(renderer->GetBackgroundAlpha())
-  {
-    renderer->GetBackground(this->Color);
-    this->Set(false, false, 0.0, 0.0, 0.0, 0.0);
-  }
-  ~WithoutBackground()
-  {
-    this->Set(
-      this->Gradient, this->Textured, this->Alpha, this->Color[0], this->Color[1], this->Color[2]);
-  }
-
-private:
-  void Set(bool gradient, bool textured, double alpha, double r, double g, double b)
-  {
-    this->Renderer->SetGradientBackground(gradient);
-    this->Renderer->SetTexturedBackground(textured);
-    this->Renderer->SetBackgroundAlpha(alpha);
-    this->Renderer->SetBackground(r, g, b);
-  }
-
-  vtkRenderer* Renderer;
-  bool Gradient;
-  bool Textured;
-  double Alpha;
-  double Color[3];
-};
-
-/// The rectangle of the current frame buffer that belongs to the renderer.
-struct Area
-{
-  int X = 0;
-  int Y = 0;
-  int Width = 0;
-  int Height = 0;
-};
-
-Area AreaOf(const vtkRenderState* s)
-{
-  Area area;
-  if (s->GetFrameBuffer())
-  {
-    int size[2];
-    s->GetWindowSize(size);
-    area.Width = size[0];
-    area.Height = size[1];
-  }
-  else
-  {
-    s->GetRenderer()->GetTiledSizeAndOrigin(&area.Width, &area.Height, &area.X, &area.Y);
-  }
-  return area;
-}
-
-vtkSmartPointer<vtkTextureObject> Upload(
-  vtkOpenGLRenderWindow* window, const color::GpuTexture& description)
-{
-  auto texture = vtkSmartPointer<vtkTextureObject>::New();
-  texture->SetContext(window);
-  texture->SetWrapS(vtkTextureObject::ClampToEdge);
-  texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  const int filter = description.Linear ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
-  texture->SetMinificationFilter(filter);
-  texture->SetMagnificationFilter(filter);
-  void* values = const_cast<float*>(description.Values.data());
-  const auto width = static_cast<unsigned int>(description.Width);
-  const auto height = static_cast<unsigned int>(description.Height);
-  const int components = description.Components;
-  switch (description.Dimensions)
-  {
-    case 1:
-      texture->Create1DFromRaw(width, components, VTK_FLOAT, values);
-      break;
-    case 2:
-      texture->Create2DFromRaw(width, height, components, VTK_FLOAT, values);
-      break;
-    default:
-      texture->Create3DFromRaw(
-        width, height, static_cast<unsigned int>(description.Depth), components, VTK_FLOAT, values);
-  }
-  return texture;
-}
 
 } // namespace
 
@@ -273,7 +187,7 @@ void vtkOpenColorIOPass::Internals::Rebuild(vtkOpenColorIOPass* self, vtkOpenGLR
       this->Shader = this->Transform->Shader(functionName, "radiometry_ocio_");
       for (const color::GpuTexture& texture : this->Shader.Textures)
       {
-        this->Tables.push_back(Upload(window, texture));
+        this->Tables.push_back(displaypass::Upload(window, texture));
       }
     }
     catch (const color::ColorError& e)
@@ -306,19 +220,10 @@ bool vtkOpenColorIOPass::Internals::ReadyQuad(vtkOpenGLRenderWindow* window)
   }
   else
   {
-    std::string source = vtkOpenGLRenderUtilities::GetFullScreenQuadFragmentShaderTemplate();
-    vtkShaderProgram::Substitute(source, "//VTK::FSQ::Decl",
-      "uniform sampler2D linearColor;\nuniform sampler2D linearDepth;\n" +
-        (this->Transform ? this->Shader.Text
-                         : std::string("vec4 ") + functionName + "(vec4 c) { return c; }\n"));
-    vtkShaderProgram::Substitute(source, "//VTK::FSQ::Impl",
-      "  vec4 pixel = texture(linearColor, texCoord);\n"
-      "  if (!(pixel.a > 0.0)) { discard; }\n"
-      "  vec3 shown = " +
-        std::string(functionName) +
-        "(vec4(pixel.rgb / pixel.a, 1.0)).rgb;\n"
-        "  gl_FragData[0] = vec4(shown * pixel.a, pixel.a);\n"
-        "  gl_FragDepth = texture(linearDepth, texCoord).r;\n");
+    std::string source = vtkOpenColorIODisplayFS;
+    vtkShaderProgram::Substitute(source, "//VTK::Display::Dec",
+      this->Transform ? this->Shader.Text
+                      : std::string("vec4 ") + functionName + "(vec4 c) { return c; }\n");
     this->FragmentShader = source;
     this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window,
       vtkOpenGLRenderUtilities::GetFullScreenQuadVertexShader().c_str(), source.c_str(), "");
