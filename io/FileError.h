@@ -8,7 +8,7 @@ namespace radiometry::io
 {
 
 /// The exception of this folder: a file that cannot be read or written, or an image that cannot
-/// be put into one. The text begins with the file's name.
+/// be put into one. The text is one line and begins with the file's name.
 class FileError : public std::runtime_error
 {
 public:

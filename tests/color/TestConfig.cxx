@@ -116,6 +116,7 @@ TEST(Config, BrokenFilesAreRefused)
     const fs::path path = Write("broken.ocio", text);
     const auto message = MessageOf([&] { ColorConfig::Open(path.string()); });
     EXPECT_NE(message.find("broken.ocio"), std::string::npos) << text.substr(0, 40);
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
 }
 

@@ -160,6 +160,12 @@ TEST(ExrDamaged, WhatIsNoPicture)
   }
 }
 
+TEST(ExrDamaged, MessagesAreOneLineOfText)
+{
+  const std::string odd = std::string("a\nb\x01") + "\xff" + "\xc3\xa9" + "\xe2\x82";
+  EXPECT_STREQ(FileError("x.exr", odd).what(), "x.exr: a b??\xc3\xa9??");
+}
+
 TEST(ExrDamaged, MemoryLimitIsKept)
 {
   const std::string file = testing::TempDir() + "/large.exr";
