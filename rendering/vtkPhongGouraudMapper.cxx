@@ -20,6 +20,28 @@ vtkCompositeMapperHelper2* vtkPhongGouraudMapper::CreateHelper()
   return vtkPhongGouraudHelper::New();
 }
 
+void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)
+{
+  if (auto* own = vtkPhongGouraudMapper::SafeDownCast(other))
+  {
+    this->SetShading(own->Shading);
+    this->SetReflectionModel(own->ReflectionModel);
+    this->SetGlobalAmbient(own->GlobalAmbient);
+    this->SetLocalViewer(own->LocalViewer);
+    this->SetTwoSided(own->TwoSided);
+    this->SetEmission(own->Emission);
+    this->SetBackEmission(own->BackEmission);
+    this->SetLightData(own->LightData);
+    this->SetLightScale(own->LightScale);
+    this->SetMetersPerUnit(own->MetersPerUnit);
+    this->SetFieldMode(own->FieldMode);
+    this->SetFieldArrayName(own->FieldArrayName.c_str());
+    this->SetFieldAssociation(own->FieldAssociation);
+    this->SetFieldScale(own->FieldScale);
+  }
+  this->Superclass::ShallowCopy(other);
+}
+
 void vtkPhongGouraudMapper::SetShading(int shading)
 {
   shading = std::clamp<int>(shading, FLAT, AUTO);

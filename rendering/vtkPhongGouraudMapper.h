@@ -36,6 +36,11 @@ public:
   vtkTypeMacro(vtkPhongGouraudMapper, vtkCompositePolyDataMapper2);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * Takes over another mapper's settings, the project's own too where it is one.
+   */
+  void ShallowCopy(vtkAbstractMapper* other) override;
+
   enum ShadingType
   {
     FLAT = 0,

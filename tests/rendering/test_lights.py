@@ -228,6 +228,20 @@ def test_edges_and_selection_are_left_to_vtk():
     assert np.allclose(w.at(0, 0), (1, 1, 1), rtol=1e-6)
 
 
+def test_shallow_copy_takes_the_settings_over():
+    w = lit({"LightType": 2, "Intensity": (math.pi,) * 3})
+    w.mapper.SetShadingToFlat()
+    w.mapper.SetReflectionModelToBlinnPhong()
+    w.mapper.SetEmission(1, 2, 3)
+    w.mapper.SetLightScale(0.5)
+    copy = vtkPhongGouraudMapper()
+    copy.ShallowCopy(w.mapper)
+    before = w.draw()
+    w.actor.SetMapper(copy)
+    assert np.array_equal(w.draw(), before)
+    assert copy.GetShading() == 0 and copy.GetReflectionModel() == 0
+
+
 def test_scalar_colours_are_the_material():
     surface = square()
     add(surface.GetPointData(), "c", np.array([(255, 51, 0)] * 4), dtype=np.uint8)
