@@ -66,17 +66,16 @@ void ElementSet::EmitAll()
   this->Patches.clear();
   this->Areas.clear();
   this->Depths.clear();
-  this->Parents.clear();
   this->Leaves.clear();
   for (std::size_t t = 0; t < this->Roots.size(); ++t)
   {
     const auto triangle = static_cast<std::int32_t>(t);
-    this->Emit(triangle, this->Roots[t], triangle, this->RootCell[t], 0, -1);
+    this->Emit(triangle, this->Roots[t], triangle, this->RootCell[t], 0);
   }
 }
 
-void ElementSet::Emit(std::int32_t node, const Triangle3& corners, std::int32_t triangle,
-  std::int32_t cell, int depth, std::int32_t parent)
+void ElementSet::Emit(
+  std::int32_t node, const Triangle3& corners, std::int32_t triangle, std::int32_t cell, int depth)
 {
   const std::int32_t first = this->Nodes[static_cast<std::size_t>(node)].Child;
   if (first >= 0)
@@ -84,7 +83,7 @@ void ElementSet::Emit(std::int32_t node, const Triangle3& corners, std::int32_t 
     const auto children = Children(corners);
     for (int k = 0; k < 4; ++k)
     {
-      this->Emit(first + k, children[static_cast<std::size_t>(k)], triangle, cell, depth + 1, node);
+      this->Emit(first + k, children[static_cast<std::size_t>(k)], triangle, cell, depth + 1);
     }
     return;
   }
@@ -105,7 +104,6 @@ void ElementSet::Emit(std::int32_t node, const Triangle3& corners, std::int32_t 
     this->Patches.push_back(patch);
     this->Areas.push_back(Area(corners));
     this->Depths.push_back(static_cast<std::uint8_t>(depth));
-    this->Parents.push_back(parent);
     this->Leaves.push_back(node);
   }
 }
@@ -113,7 +111,9 @@ void ElementSet::Emit(std::int32_t node, const Triangle3& corners, std::int32_t 
 void ElementSet::DivideNode(std::int32_t node)
 {
   this->Nodes[static_cast<std::size_t>(node)].Child = static_cast<std::int32_t>(this->Nodes.size());
-  this->Nodes.resize(this->Nodes.size() + 4);
+  Node child;
+  child.Parent = node;
+  this->Nodes.resize(this->Nodes.size() + 4, child);
 }
 
 ElementSet ElementSet::DividedToArea(double area) const
@@ -208,75 +208,97 @@ std::int32_t ElementSet::Find(std::int32_t triangle, bool front, double u, doubl
   return this->Nodes[node].Element[front ? 0 : 1];
 }
 
-std::vector<std::int32_t> ElementSet::Groups(const Scene& scene, std::size_t& count) const
+std::vector<std::int32_t> ElementSet::RootClusters(
+  const Scene& scene, std::size_t side, std::size_t size) const
 {
-  const std::size_t n = this->Size();
-  std::vector<std::int32_t> group(n, -1);
-  std::int32_t next = 0;
-
-  // Siblings.
-  std::unordered_map<std::int64_t, std::int32_t> ofParent;
-  for (std::size_t e = 0; e < n; ++e)
-  {
-    if (this->Parents[e] >= 0)
-    {
-      const std::int64_t key = 2 * std::int64_t(this->Parents[e]) + this->Patches[e].Side;
-      const auto found = ofParent.emplace(key, next);
-      next += found.second;
-      group[e] = found.first->second;
-    }
-  }
-
-  // Undivided triangles: grow over shared edges to four of a kind.
+  const std::size_t n = this->Roots.size();
+  std::vector<Vec3> normals(n);
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> ofEdge;
-  for (std::size_t e = 0; e < n; ++e)
+  for (std::size_t t = 0; t < n; ++t)
   {
-    if (group[e] < 0)
+    normals[t] = Normalized(AreaNormal2(this->Roots[t]));
+    const auto& v = scene.Triangles[t];
+    for (std::size_t k = 0; k < 3; ++k)
     {
-      const auto& t = scene.Triangles[static_cast<std::size_t>(this->Patches[e].Triangle)];
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        ofEdge[std::minmax(t[k], t[(k + 1) % 3])].push_back(static_cast<std::int32_t>(e));
-      }
+      ofEdge[std::minmax(v[k], v[(k + 1) % 3])].push_back(static_cast<std::int32_t>(t));
     }
   }
   const Materials& optics = scene.Optics;
+  const double aligned = size <= 4 ? 0.94 : 0.8;
   const auto alike = [&](std::size_t a, std::size_t b) {
-    const Patch& p = this->Patches[a];
-    const Patch& q = this->Patches[b];
-    const auto cp = static_cast<std::size_t>(p.Cell);
-    const auto cq = static_cast<std::size_t>(q.Cell);
-    const std::size_t side = p.Side;
-    return p.Side == q.Side &&
-      Dot(Normalized(AreaNormal2(p.Corners)), Normalized(AreaNormal2(q.Corners))) > 0.94 &&
-      SameRow(optics.DiffuseReflectance[side], cp, cq, optics.Bands) &&
-      SameRow(optics.EmittedExitance[side], cp, cq, optics.Bands);
+    const auto ca = static_cast<std::size_t>(this->RootCell[a]);
+    const auto cb = static_cast<std::size_t>(this->RootCell[b]);
+    return this->Receives[a][side] == this->Receives[b][side] &&
+      Dot(normals[a], normals[b]) > aligned &&
+      SameRow(optics.DiffuseReflectance[side], ca, cb, optics.Bands) &&
+      SameRow(optics.EmittedExitance[side], ca, cb, optics.Bands);
   };
-  for (std::size_t e = 0; e < n; ++e)
+  std::vector<std::int32_t> cluster(n, -1);
+  std::int32_t next = 0;
+  std::vector<std::size_t> members;
+  for (std::size_t t = 0; t < n; ++t)
   {
-    if (group[e] >= 0)
+    if (cluster[t] >= 0)
     {
       continue;
     }
-    std::vector<std::size_t> members{ e };
-    group[e] = next;
-    for (std::size_t m = 0; m < members.size() && members.size() < 4; ++m)
+    members.assign(1, t);
+    cluster[t] = next;
+    for (std::size_t m = 0; m < members.size() && members.size() < size; ++m)
     {
-      const auto& t = scene.Triangles[static_cast<std::size_t>(this->Patches[members[m]].Triangle)];
-      for (std::size_t k = 0; k < 3 && members.size() < 4; ++k)
+      const auto& v = scene.Triangles[members[m]];
+      for (std::size_t k = 0; k < 3 && members.size() < size; ++k)
       {
-        for (const std::int32_t other : ofEdge[std::minmax(t[k], t[(k + 1) % 3])])
+        for (const std::int32_t other : ofEdge[std::minmax(v[k], v[(k + 1) % 3])])
         {
           const auto o = static_cast<std::size_t>(other);
-          if (group[o] < 0 && alike(e, o) && members.size() < 4)
+          if (cluster[o] < 0 && members.size() < size && alike(t, o))
           {
-            group[o] = next;
+            cluster[o] = next;
             members.push_back(o);
           }
         }
       }
     }
     ++next;
+  }
+  return cluster;
+}
+
+std::vector<std::int32_t> ElementSet::Groups(
+  const Scene& scene, int levels, std::size_t& count) const
+{
+  // Clusters of triangles for every number of divisions that is missing.
+  std::vector<std::array<std::vector<std::int32_t>, 2>> clusters(
+    static_cast<std::size_t>(levels) + 1);
+  std::unordered_map<std::int64_t, std::int32_t> number;
+  std::vector<std::int32_t> group(this->Size());
+  std::int32_t next = 0;
+  for (std::size_t e = 0; e < this->Size(); ++e)
+  {
+    const std::size_t side = this->Patches[e].Side;
+    const int missing = std::max(0, levels - this->Depths[e]);
+    std::int64_t key = this->Leaves[e];
+    if (missing == 0)
+    {
+      for (int k = 0; k < levels; ++k)
+      {
+        key = this->Nodes[static_cast<std::size_t>(key)].Parent;
+      }
+    }
+    else
+    {
+      auto& cluster = clusters[static_cast<std::size_t>(missing)][side];
+      if (cluster.empty())
+      {
+        cluster = this->RootClusters(scene, side, std::size_t(1) << (2 * missing));
+      }
+      key = cluster[static_cast<std::size_t>(this->Patches[e].Triangle)];
+    }
+    key = (key * (levels + 1) + missing) * 2 + static_cast<std::int64_t>(side);
+    const auto found = number.emplace(key, next);
+    next += found.second;
+    group[e] = found.first->second;
   }
   count = static_cast<std::size_t>(next);
   return group;

@@ -40,21 +40,25 @@ public:
   /// The element at barycentric coordinates (u, v) of a triangle's side; -1 where none receives.
   std::int32_t Find(std::int32_t triangle, bool front, double u, double v) const;
 
-  /// Groups of about four neighbouring elements: siblings of one parent; undivided triangles join
-  /// neighbours of nearly the same plane and the same optics. `count` gets the number of groups.
-  std::vector<std::int32_t> Groups(const Scene& scene, std::size_t& count) const;
+  /// Groups of about 4^levels neighbouring elements: those of one ancestor so many divisions up;
+  /// where triangles were divided less often, these join neighbours of nearly the same plane and
+  /// the same optics. `count` gets the number of groups.
+  std::vector<std::int32_t> Groups(const Scene& scene, int levels, std::size_t& count) const;
   /// Each element's cell and side as a group: 2 cell + side, numbered without gaps.
   std::vector<std::int32_t> CellGroups(std::size_t& count) const;
 
 private:
   struct Node
   {
-    std::int32_t Child = -1;                       // first of four, or -1
+    std::int32_t Child = -1; // first of four, or -1
+    std::int32_t Parent = -1;
     std::array<std::int32_t, 2> Element{ -1, -1 }; // of a leaf, front and back
   };
   ElementSet() = default;
   void Emit(std::int32_t node, const Triangle3& corners, std::int32_t triangle, std::int32_t cell,
-    int depth, std::int32_t parent);
+    int depth);
+  std::vector<std::int32_t> RootClusters(
+    const Scene& scene, std::size_t side, std::size_t size) const;
   void EmitAll();
   void DivideNode(std::int32_t node);
 
@@ -67,8 +71,7 @@ private:
   std::vector<Patch> Patches;
   std::vector<double> Areas;
   std::vector<std::uint8_t> Depths;
-  std::vector<std::int32_t> Parents; // node of the parent; -1 for an undivided triangle
-  std::vector<std::int32_t> Leaves;  // node of each element
+  std::vector<std::int32_t> Leaves; // node of each element
 };
 
 } // namespace radiometry

@@ -70,8 +70,8 @@ void Finish(const std::vector<std::int64_t>& rays, EmitterResult& result)
 
 /// Visible fraction of one emitter from a point, as PairVisibility.
 PairVisibilityResult PointVisibility(const OcclusionScene& scene, const SurfacePoint& point,
-  const std::vector<PointStart>& starts, const ExchangePatch& emitter, std::int32_t triangle, std::uint64_t key,
-  double wanted)
+  const std::vector<PointStart>& starts, const ExchangePatch& emitter, std::int32_t triangle,
+  std::uint64_t key, double wanted)
 {
   constexpr int sets = 4;
   PairVisibilityResult result;
@@ -226,8 +226,8 @@ EmitterResult ComputeEmitterIrradiance(const Scene& scene, const OcclusionScene&
           const double share = factors[j] * strength[j] / total;
           const std::uint64_t key = Hash64(options.Seed ^ EmitterSalt ^ 0x706f696e74ull,
             (static_cast<std::uint64_t>(i) << 32) | j);
-          v = PointVisibility(occluders, point, starts, shapes[j], emitters.Patches[j].Triangle, key,
-            0.5 * options.RelativeTolerance / std::sqrt(share));
+          v = PointVisibility(occluders, point, starts, shapes[j], emitters.Patches[j].Triangle,
+            key, 0.5 * options.RelativeTolerance / std::sqrt(share));
           rays[i] += v.Rays;
         }
         Accumulate(emitters, j, factors[j] * v.Fraction, 1e-12 * factors[j], v.Error * factors[j],

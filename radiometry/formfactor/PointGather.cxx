@@ -32,17 +32,17 @@ std::vector<PointStart> PointStarts(
   }
   if (starts.empty())
   {
-    starts.push_back({ { point.Point, point.Triangle,
-                         point.Triangle < 0 && occluders.TooClose(point.Point) },
-      {} });
+    starts.push_back(
+      { { point.Point, point.Triangle, point.Triangle < 0 && occluders.TooClose(point.Point) },
+        {} });
   }
   return starts;
 }
 
 GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
   const ElementSet& elements, const std::vector<double>& radiosity, int bands,
-  const std::vector<SurfacePoint>& points, double absoluteTolerance,
-  const ExchangeOptions& options, const StageProgress& stage)
+  const std::vector<SurfacePoint>& points, double absoluteTolerance, const ExchangeOptions& options,
+  const StageProgress& stage)
 {
   const auto nb = static_cast<std::size_t>(bands);
   GatherResult result;
@@ -69,8 +69,7 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
             const auto u = sequence(k);
             const Vec3 direction = CosineDirection(point.Normal, u[0], u[1]);
             // The start that this ray can leave from, beginning with a sampled one.
-            const auto first =
-              static_cast<std::size_t>(u[2] * static_cast<double>(starts.size()));
+            const auto first = static_cast<std::size_t>(u[2] * static_cast<double>(starts.size()));
             const PointStart* start = nullptr;
             for (std::size_t s = 0; s < starts.size() && !start; ++s)
             {

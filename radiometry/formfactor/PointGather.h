@@ -36,7 +36,7 @@ struct GatherResult
 ///           below the tolerance, or 8 x 512 rays
 GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
   const ElementSet& elements, const std::vector<double>& radiosity, int bands,
-  const std::vector<SurfacePoint>& points, double absoluteTolerance,
-  const ExchangeOptions& options, const StageProgress& stage = {});
+  const std::vector<SurfacePoint>& points, double absoluteTolerance, const ExchangeOptions& options,
+  const StageProgress& stage = {});
 
 } // namespace radiometry

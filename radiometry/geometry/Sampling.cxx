@@ -52,21 +52,41 @@ struct DirectionNumbers
   }
 };
 
-const DirectionNumbers Numbers;
+/// The same, summed for each byte of the index: four look-ups a coordinate.
+struct ByteTables
+{
+  std::uint32_t T[4][4][256]; // dimension, byte, value
+
+  ByteTables()
+  {
+    const DirectionNumbers numbers;
+    for (int d = 0; d < 4; ++d)
+    {
+      for (int byte = 0; byte < 4; ++byte)
+      {
+        for (int value = 0; value < 256; ++value)
+        {
+          std::uint32_t x = 0;
+          for (int bit = 0; bit < 8; ++bit)
+          {
+            x ^= (value >> bit) & 1 ? numbers.V[d][8 * byte + bit] : 0u;
+          }
+          this->T[d][byte][value] = x;
+        }
+      }
+    }
+  }
+};
+
+const ByteTables Tables;
 
 } // namespace
 
 std::uint32_t SobolSequence::Digits(std::uint32_t index, int dimension)
 {
-  std::uint32_t x = 0;
-  for (const std::uint32_t* v = Numbers.V[dimension]; index; index >>= 1, ++v)
-  {
-    if (index & 1u)
-    {
-      x ^= *v;
-    }
-  }
-  return x;
+  const auto& t = Tables.T[dimension];
+  return t[0][index & 255u] ^ t[1][(index >> 8) & 255u] ^ t[2][(index >> 16) & 255u] ^
+    t[3][index >> 24];
 }
 
 Vec3 CosineDirection(const Vec3& n, double u, double v)

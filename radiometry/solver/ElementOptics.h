@@ -26,7 +26,7 @@ void CheckOptics(const Scene& scene);
 
 /// Undivided emitting triangles as lights, when they are few and small enough to be treated as
 /// such: at most a quarter of the elements' area and `mostPairs` pairs; else empty.
-EmitterSet SmallEmitters(const Scene& scene, const ElementSet& elements, bool backFaces,
-  std::size_t mostPairs);
+EmitterSet SmallEmitters(
+  const Scene& scene, const ElementSet& elements, bool backFaces, std::size_t mostPairs);
 
 } // namespace radiometry

@@ -23,13 +23,17 @@ namespace
 
 // Half-widths that cover 95 %: of a normal error, and of one estimated from eight batches.
 constexpr double DenseCoverage = 2.0;
-constexpr double CarloCoverage = 2.4;
+constexpr double CarloCoverage = 2.7; // rays stop where the estimate happens to be low
+constexpr double DiscretisationSafety = 2.0;
 constexpr std::size_t DefaultMemory = std::size_t(2) << 30;
 constexpr std::size_t EmitterPairs = 4000000;
 constexpr int FirstRays = 64;
+constexpr double FirstTolerance = 0.03;
 constexpr int MostRays = 16384;
 /// Cells darker than this share of the mean are held to the tolerance of the share.
 constexpr double DarkShare = 0.05;
+
+const char* const MetOutcome = "the tolerance is met on 95 % of the area";
 
 using Values = std::vector<double>;
 
@@ -44,14 +48,15 @@ struct Level
 
   ElementSet Elements;
   ElementOptics Optics;
-  EmitterSet Emitters;     // treated as lights; empty: emission goes through the operator
-  Values First;            // irradiance by lights and such emitters
-  Values Leaving;          // radiosity but for what Emitters treat
-  Values Irradiance;       // all
+  EmitterSet Emitters; // treated as lights; empty: emission goes through the operator
+  Values First;        // irradiance by lights and such emitters
+  Values Leaving;      // radiosity but for what Emitters treat
+  Values Irradiance;   // all
   Values DirectError, FormFactorError, VisibilityError, Discretisation, SolverError;
   std::unique_ptr<FormFactorOperator> F;
   MonteCarloOperator* Carlo = nullptr; // F, when it is one
   int Iterations = 0;
+  Values InverseBound; // of the system, from its first solve
 };
 
 const char* MethodName(RadiosityMethod method)
@@ -81,7 +86,8 @@ struct RadiositySimulation::Internals
   std::size_t Bands = 1;
   std::size_t Memory = DefaultMemory;
   double Area = 0.0;
-  bool Convex = false; // nothing can hide anything
+  double Tolerance = 0.01; // of the exchange at the present step, relative
+  bool Convex = false;     // nothing can hide anything
 
   Internals(const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options)
     : Geometry(scene)
@@ -102,7 +108,7 @@ struct RadiositySimulation::Internals
   ExchangeOptions Exchange() const
   {
     ExchangeOptions o;
-    o.RelativeTolerance = this->Options.RelativeTolerance;
+    o.RelativeTolerance = this->Tolerance;
     o.Occlusion = this->Options.Occlusion;
     o.MemoryLimit = this->Memory;
     o.Threads = this->Options.Threads;
@@ -114,8 +120,7 @@ struct RadiositySimulation::Internals
     DirectOptions o;
     o.RelativeTolerance = 0.5 * this->Options.RelativeTolerance;
     o.AbsoluteTolerance = 0.5 * this->Options.AbsoluteTolerance;
-    o.SecondsLeft =
-      this->Options.TimeBudget > 0.0 ? std::max(1e-3, 0.5 * this->Left()) : 0.0;
+    o.SecondsLeft = this->Options.TimeBudget > 0.0 ? std::max(1e-3, 0.5 * this->Left()) : 0.0;
     o.Occlusion = this->Options.Occlusion;
     o.SpotShape = this->Options.SpotShape;
     o.Attenuation = this->Options.Attenuation;
@@ -142,12 +147,14 @@ struct RadiositySimulation::Internals
 
   RadiosityMethod Choose(const ElementSet& elements);
   std::size_t DenseLimit() const;
+  std::size_t AutomaticLimit() const;
   void Illuminate(Level& level, const StageProgress& stage);
-  void Solve(Level& level, const StageProgress& stage);
-  void EstimateDiscretisation(Level& level, const Values& source, const Values& gathered);
+  /// `discretise`: estimate the error of constant elements too (else keep the last estimate).
+  void Solve(Level& level, bool discretise, const StageProgress& stage);
   /// Fills Result from a level; true when the tolerance is met.
   bool Evaluate(const Level& level, const char* stage, std::vector<std::uint8_t>* unfinished);
-  void RunDense(const ElementSet& coarsest, const StageProgress& stage);
+  /// False when elements are too coarse for the tolerance and all pairs of finer ones too many.
+  bool RunDense(const ElementSet& coarsest, const StageProgress& stage);
   void RunMonteCarlo(const ElementSet& coarsest, const StageProgress& stage);
 };
 
@@ -159,6 +166,16 @@ std::size_t RadiositySimulation::Internals::DenseLimit() const
     n = n * 3 / 4;
   }
   return n;
+}
+
+std::size_t RadiositySimulation::Internals::AutomaticLimit() const
+{
+  // Where nothing hides anything pairs need no rays; else rays from elements are the cheaper way
+  // to all but the finest tolerances.
+  const std::size_t limit = this->DenseLimit();
+  const bool rays = this->Options.Method == RadiosityMethod::Auto && this->Options.Occlusion &&
+    !this->Convex && this->Options.RelativeTolerance >= 0.005;
+  return rays ? std::min<std::size_t>(limit, 1024) : limit;
 }
 
 RadiosityMethod RadiositySimulation::Internals::Choose(const ElementSet& elements)
@@ -186,20 +203,19 @@ RadiosityMethod RadiositySimulation::Internals::Choose(const ElementSet& element
     why = "Dense: occlusion is off, and rays cannot pass through what they meet";
     return RadiosityMethod::Dense;
   }
-  const std::size_t limit = this->DenseLimit();
+  const std::size_t limit = this->AutomaticLimit();
   const double wanted = std::clamp(10.0 / this->Options.RelativeTolerance, 200.0, 2000.0);
-  const std::size_t fine = this->Options.Refinement == RefinementMode::Off
-    ? n
-    : elements.CountAtArea(this->Area / wanted);
+  const std::size_t fine =
+    this->Options.Refinement == RefinementMode::Off ? n : elements.CountAtArea(this->Area / wanted);
   if (n > limit || fine > limit + limit / 2)
   {
     why = "MonteCarlo: " + count + " (" + std::to_string(fine) +
       " when refined for the tolerance), more than the " + std::to_string(limit) +
-      " of which all pairs are worth it or fit in memory";
+      " whose pairs would be worth their rays and memory";
     return RadiosityMethod::MonteCarlo;
   }
   const double threads = this->Options.Threads > 0 ? this->Options.Threads : 2.0;
-  if (1e-6 * static_cast<double>(n) * static_cast<double>(n) / threads > 0.5 * this->Left())
+  if (2e-6 * static_cast<double>(n) * static_cast<double>(n) / threads > 0.5 * this->Left())
   {
     why = "MonteCarlo: all pairs of " + count + " do not fit in the time budget";
     return RadiosityMethod::MonteCarlo;
@@ -250,7 +266,8 @@ void RadiositySimulation::Internals::Illuminate(Level& level, const StageProgres
   }
 }
 
-void RadiositySimulation::Internals::Solve(Level& level, const StageProgress& stage)
+void RadiositySimulation::Internals::Solve(
+  Level& level, bool discretise, const StageProgress& stage)
 {
   const std::size_t n = level.Elements.Size();
   const std::size_t values = n * this->Bands;
@@ -263,8 +280,7 @@ void RadiositySimulation::Internals::Solve(Level& level, const StageProgress& st
   for (std::size_t k = 0; k < values; ++k)
   {
     // Without interreflection only what is emitted travels on.
-    source[k] = rho[k] * level.First[k] +
-      (level.Emitters.Empty() ? level.Optics.Exitance[k] : 0.0);
+    source[k] = rho[k] * level.First[k] + (level.Emitters.Empty() ? level.Optics.Exitance[k] : 0.0);
   }
 
   SolveOptions options;
@@ -274,12 +290,21 @@ void RadiositySimulation::Internals::Solve(Level& level, const StageProgress& st
   {
     cells[e] = level.Elements.GetPatches()[e].Cell;
   }
-  const auto solveIn = [&](const GroupedOperator& grouped, std::size_t groups) {
+  const auto solveIn = [&](const GroupedOperator& grouped, std::size_t groups,
+                         const SolveOptions& how) {
     Values groupRho(groups * this->Bands), groupSource(groups * this->Bands);
     grouped.Restrict(rho.data(), groupRho.data(), bands);
     grouped.Restrict(source.data(), groupSource.data(), bands);
-    return SolveRadiosity(grouped, groupRho, groupSource, bands, options, {}, stage);
+    return SolveRadiosity(grouped, groupRho, groupSource, bands, how, {}, stage);
   };
+  // A second solve of the same elements begins where the first ended.
+  const Values guess = level.Leaving;
+  if (!level.InverseBound.empty())
+  {
+    options.InverseBound = &level.InverseBound;
+    options.Guess =
+      guess.size() == values && this->Options.Refinement != RefinementMode::Off ? &guess : nullptr;
+  }
 
   level.Leaving.assign(values, 0.0);
   if (this->Options.Refinement == RefinementMode::Off)
@@ -287,10 +312,11 @@ void RadiositySimulation::Internals::Solve(Level& level, const StageProgress& st
     std::size_t count = 0;
     const std::vector<std::int32_t> group = level.Elements.CellGroups(count);
     const GroupedOperator grouped(*level.F, group, count);
-    const SolveResult r = solveIn(grouped, count);
+    const SolveResult r = solveIn(grouped, count, options);
     grouped.Prolong(r.Radiosity.data(), level.Leaving.data(), bands);
     grouped.Prolong(r.Error.data(), level.SolverError.data(), bands);
-    level.Iterations = r.Iterations;
+    level.Iterations += r.Iterations;
+    level.InverseBound = r.InverseBound;
     level.F->Apply(level.Leaving.data(), gathered.data(), bands);
   }
   else
@@ -299,7 +325,8 @@ void RadiositySimulation::Internals::Solve(Level& level, const StageProgress& st
     level.Leaving = std::move(r.Radiosity);
     level.SolverError = std::move(r.Error);
     gathered = std::move(r.Irradiance);
-    level.Iterations = r.Iterations;
+    level.Iterations += r.Iterations;
+    level.InverseBound = std::move(r.InverseBound);
   }
   for (std::size_t k = 0; k < values; ++k)
   {
@@ -327,18 +354,55 @@ void RadiositySimulation::Internals::Solve(Level& level, const StageProgress& st
     level.DirectError[k] += arrived[k];
   }
 
-  // The same on elements merged by fours: what that changes bounds what merging to the present
-  // elements changed.
-  std::size_t count = 0;
-  const std::vector<std::int32_t> group = level.Elements.Groups(this->Geometry, count);
-  const GroupedOperator grouped(*level.F, group, count);
-  const SolveResult coarse = solveIn(grouped, count);
-  Values prolonged(values), coarseGathered(values);
-  grouped.Prolong(coarse.Radiosity.data(), prolonged.data(), bands);
-  level.F->Apply(prolonged.data(), coarseGathered.data(), bands);
-  for (std::size_t k = 0; k < values; ++k)
+  if (!discretise)
   {
-    level.Discretisation[k] = gathered[k] - coarseGathered[k];
+    return;
+  }
+  // A difference of some per cent needs no more digits than that.
+  const Values none;
+  SolveOptions rough;
+  rough.Tolerance = std::clamp(0.01 * this->Options.RelativeTolerance, 1e-8, 1e-4);
+  rough.InverseBound = &none;
+  if (this->Options.Refinement == RefinementMode::Off && level.Elements.Depth(0) > 0)
+  {
+    const SolveResult free = SolveRadiosity(*level.F, rho, source, bands, rough, cells, stage);
+    for (std::size_t k = 0; k < values; ++k)
+    {
+      level.Discretisation[k] = 1.5 * (free.Irradiance[k] - gathered[k]);
+    }
+    return;
+  }
+
+  // The same on elements merged by fours and by sixteens. What the first merging changes, and how
+  // much less that is than what the second does, tell what elements of no size would change.
+  std::array<Values, 2> merged;
+  for (int levels = 1; levels <= 2; ++levels)
+  {
+    std::size_t count = 0;
+    const std::vector<std::int32_t> group = level.Elements.Groups(this->Geometry, levels, count);
+    const GroupedOperator grouped(*level.F, group, count);
+    const SolveResult coarse = solveIn(grouped, count, rough);
+    Values prolonged(values);
+    grouped.Prolong(coarse.Radiosity.data(), prolonged.data(), bands);
+    merged[static_cast<std::size_t>(levels - 1)].resize(values);
+    level.F->Apply(prolonged.data(), merged[static_cast<std::size_t>(levels - 1)].data(), bands);
+  }
+  for (std::size_t b = 0; b < this->Bands; ++b)
+  {
+    double fine = 0.0, coarse = 0.0;
+    for (std::size_t e = 0; e < n; ++e)
+    {
+      const std::size_t k = e * this->Bands + b;
+      const double a = level.Elements.GetAreas()[e];
+      fine += a * (gathered[k] - merged[0][k]) * (gathered[k] - merged[0][k]);
+      coarse += a * (merged[0][k] - merged[1][k]) * (merged[0][k] - merged[1][k]);
+    }
+    // Each division shrinks the change by `ratio`: the changes still to come sum to 1/(ratio - 1).
+    const double ratio = fine > 0.0 ? std::clamp(std::sqrt(coarse / fine), 1.5, 4.0) : 4.0;
+    for (std::size_t k = b; k < values; k += this->Bands)
+    {
+      level.Discretisation[k] = DiscretisationSafety / (ratio - 1.0) * (gathered[k] - merged[0][k]);
+    }
   }
 }
 
@@ -355,22 +419,23 @@ bool RadiositySimulation::Internals::Evaluate(
   // Sums over the cells' sides: linear for what may have one sign, squares for sampling.
   struct Sums
   {
-    Values Area, Value, Leaving, Direct, FormFactor, Visibility, Signed, Squares, Solver;
+    Values Area, Value, Gathered, Leaving, Direct, FormFactor, Visibility, Signed, Squares, Solver;
   };
   std::array<Sums, 2> sums;
   for (Sums& s : sums)
   {
     s.Area.assign(cells, 0.0);
-    for (Values* v : { &s.Value, &s.Leaving, &s.Direct, &s.FormFactor, &s.Visibility, &s.Signed,
-           &s.Squares, &s.Solver })
+    for (Values* v : { &s.Value, &s.Gathered, &s.Leaving, &s.Direct, &s.FormFactor, &s.Visibility,
+           &s.Signed, &s.Squares, &s.Solver })
     {
       v->assign(cells * nb, 0.0);
     }
   }
-  // The spread of the estimate over each element and its neighbours: a difference that happens to
-  // pass through zero at one place is not an error of zero there.
+  // The spread of the estimate over each element and its neighbours, and its mean share of the
+  // gathered light: a difference that happens to pass through zero at one place is not an error of
+  // zero there.
   std::size_t groups = 0;
-  const std::vector<std::int32_t> group = level.Elements.Groups(this->Geometry, groups);
+  const std::vector<std::int32_t> group = level.Elements.Groups(this->Geometry, 1, groups);
   Values groupSquare(groups * nb, 0.0), groupArea(groups, 0.0);
   for (std::size_t e = 0; e < n; ++e)
   {
@@ -381,6 +446,17 @@ bool RadiositySimulation::Internals::Evaluate(
       const double d = level.Discretisation[e * nb + b];
       groupSquare[g * nb + b] += areas[e] * d * d;
     }
+  }
+  Values meanShare(nb, 0.0);
+  for (std::size_t b = 0; b < nb; ++b)
+  {
+    double difference = 0.0, all = 0.0;
+    for (std::size_t e = 0; e < n; ++e)
+    {
+      difference += areas[e] * std::abs(level.Discretisation[e * nb + b]);
+      all += areas[e] * (level.Irradiance[e * nb + b] - level.First[e * nb + b]);
+    }
+    meanShare[b] = all > 0.0 ? difference / all : 0.0;
   }
   bool back = false;
   for (std::size_t e = 0; e < n; ++e)
@@ -395,6 +471,7 @@ bool RadiositySimulation::Internals::Evaluate(
     {
       const std::size_t k = e * nb + b, to = c * nb + b;
       s.Value[to] += a * level.Irradiance[k];
+      s.Gathered[to] += a * (level.Irradiance[k] - level.First[k]);
       s.Leaving[to] +=
         a * (level.Optics.Exitance[k] + level.Optics.Reflectance[k] * level.Irradiance[k]);
       s.Direct[to] += a * level.DirectError[k];
@@ -449,8 +526,8 @@ bool RadiositySimulation::Internals::Evaluate(
         const double direct = s.Direct[k] / a;
         const double formFactor = s.FormFactor[k] / a;
         const double visibility = std::sqrt(s.Visibility[k]) / a;
-        const double discretisation =
-          std::max(std::abs(s.Signed[k]) / a, 0.5 * std::sqrt(s.Squares[k] / a));
+        const double discretisation = std::max({ std::abs(s.Signed[k]) / a,
+          0.5 * std::sqrt(s.Squares[k] / a), 0.7 * meanShare[b] * s.Gathered[k] / a });
         const double solver = s.Solver[k] / a;
         const double error =
           std::hypot(std::hypot(direct, visibility), discretisation) + formFactor + solver;
@@ -508,16 +585,19 @@ bool RadiositySimulation::Internals::Evaluate(
   return met >= 0.95 * totalArea;
 }
 
-void RadiositySimulation::Internals::RunDense(
+bool RadiositySimulation::Internals::RunDense(
   const ElementSet& coarsest, const StageProgress& stage)
 {
   const bool refine = this->Options.Refinement != RefinementMode::Off;
-  const std::size_t limit = std::max(this->DenseLimit(), coarsest.Size());
+  const std::size_t limit = std::max(this->AutomaticLimit(), coarsest.Size());
   double area = refine ? this->Area / 200.0 : std::numeric_limits<double>::infinity();
   while (refine && coarsest.CountAtArea(area) > limit)
   {
     area *= 2.0;
   }
+  // Coarse elements need no fine exchange: both get finer, as the error asks for the one or the
+  // other.
+  this->Tolerance = std::max(this->Options.RelativeTolerance, refine ? FirstTolerance : 0.0);
   this->Result.Outcome = "as fine as this version solves";
   const double span = stage.End - stage.Begin;
   double begin = stage.Begin;
@@ -533,51 +613,73 @@ void RadiositySimulation::Internals::RunDense(
       return p;
     };
     const double started = this->Result.Convergence.Elapsed();
-    auto level =
-      std::make_unique<Level>(this->Geometry, coarsest.DividedToArea(area), this->Options.Emission);
+    ElementSet elements = coarsest.DividedToArea(area);
+    if (!refine && 4 * coarsest.Size() <= limit)
+    {
+      // One radiosity a cell, and the solve without that restriction to know what it costs.
+      elements = coarsest.Divided(std::vector<std::uint8_t>(coarsest.Size(), 1));
+    }
+    auto level = std::make_unique<Level>(this->Geometry, elements, this->Options.Emission);
     this->Illuminate(*level, part(0.0, 0.2, "direct light"));
     this->Timed("exchange", [&] {
       level->F = std::make_unique<DenseOperator>(this->Geometry, this->Occluders, level->Elements,
         this->Exchange(), part(0.2, 0.8, "exchange"));
     });
-    this->Timed("solve", [&] { this->Solve(*level, part(0.8, 1.0, "solve")); });
+    this->Timed("solve", [&] { this->Solve(*level, true, part(0.8, 1.0, "solve")); });
     begin = part(0.0, 1.0, "").End;
     const bool met = this->Evaluate(*level, "solved", nullptr);
     const std::size_t n = level->Elements.Size();
     this->Finest = std::move(level);
     if (met && !(this->Options.Refinement == RefinementMode::On && n == coarsest.Size()))
     {
-      this->Result.Outcome = "the tolerance is met on 95 % of the area";
-      return;
+      this->Result.Outcome = MetOutcome;
+      return true;
     }
     if (!refine)
     {
       this->Result.Outcome = "one radiosity a cell, as asked";
-      return;
+      return true;
     }
-    // Elements only help where they are what limits.
+    // Finer elements where they limit, finer exchange where that does.
     const RadiosityErrorBudget& budget = this->Result.Budget;
-    if (budget.Discretisation < 0.2 * (budget.Direct + budget.Visibility + budget.FormFactors))
+    const double sampled = budget.Direct + budget.Visibility + budget.FormFactors;
+    const double tolerance = this->Tolerance;
+    if (sampled > 0.3 * budget.Discretisation)
     {
+      this->Tolerance = std::max(this->Options.RelativeTolerance, 0.3 * tolerance);
+    }
+    std::size_t count = n;
+    double next = area;
+    if (budget.Discretisation > 0.3 * sampled)
+    {
+      next = 0.25 * area;
+      while (coarsest.CountAtArea(next) > limit && next < 0.7 * area)
+      {
+        next *= 1.2;
+      }
+      count = coarsest.CountAtArea(next);
+      if (count > limit || count <= n)
+      {
+        next = area;
+        count = n;
+      }
+    }
+    if (count == n && this->Tolerance == tolerance)
+    {
+      if (budget.Discretisation > 0.3 * sampled)
+      {
+        return false;
+      }
       this->Result.Outcome = "sampling of direct light and visibility limits the error";
-      return;
-    }
-    double next = 0.25 * area;
-    while (coarsest.CountAtArea(next) > limit && next < 0.7 * area)
-    {
-      next *= 1.2;
-    }
-    const std::size_t count = coarsest.CountAtArea(next);
-    if (count <= n || count > limit)
-    {
-      return;
+      return true;
     }
     const double ratio = static_cast<double>(count) / static_cast<double>(n);
-    const double predicted = (this->Result.Convergence.Elapsed() - started) * ratio * ratio;
+    const double predicted = (this->Result.Convergence.Elapsed() - started) * ratio * ratio *
+      (tolerance / this->Tolerance);
     if (predicted > this->Left())
     {
       this->Result.Outcome = "the time budget does not allow a finer step";
-      return;
+      return true;
     }
     area = next;
   }
@@ -592,7 +694,7 @@ void RadiositySimulation::Internals::RunMonteCarlo(
   {
     double wanted = std::clamp(60.0 / this->Options.RelativeTolerance, 500.0, 6000.0);
     std::size_t most = std::max<std::size_t>(2 * coarsest.Size(), 30000);
-    most = std::min(most, this->Memory / 2 / (FirstRays * 4));
+    most = std::min(most, this->Memory / 2 / (FirstRays * 4 + 200));
     while (coarsest.CountAtArea(this->Area / wanted) > most && wanted > 50.0)
     {
       wanted *= 0.7;
@@ -607,6 +709,7 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     p.Name = name;
     return p;
   };
+  this->Tolerance = this->Options.RelativeTolerance;
   auto level = std::make_unique<Level>(this->Geometry, elements, this->Options.Emission);
   this->Illuminate(*level, part(0.0, 0.2, "direct light"));
   const Values directError = level->DirectError;
@@ -614,24 +717,31 @@ void RadiositySimulation::Internals::RunMonteCarlo(
   double raySeconds = 0.0;
   this->Timed("rays", [&] {
     const double begin = this->Result.Convergence.Elapsed();
+    int rays = FirstRays;
+    if (this->Options.TimeBudget > 0.0)
+    {
+      rays = static_cast<int>(
+        std::clamp(0.2e6 * this->Left() / static_cast<double>(n), 16.0, double(FirstRays)));
+    }
     auto carlo = std::make_unique<MonteCarloOperator>(
-      this->Occluders, level->Elements, this->Exchange(), FirstRays, part(0.2, 0.3, "rays"));
+      this->Occluders, level->Elements, this->Exchange(), rays, part(0.2, 0.3, "rays"));
     level->Carlo = carlo.get();
     level->F = std::move(carlo);
     raySeconds = (this->Result.Convergence.Elapsed() - begin) /
       static_cast<double>(std::max<std::int64_t>(1, level->F->Samples()));
   });
   double at = 0.3;
-  for (;;)
+  for (int rounds = 0;; ++rounds)
   {
     const double round = this->Result.Convergence.Elapsed();
-    this->Timed("solve", [&] { this->Solve(*level, part(at, at, "solve")); });
+    this->Timed(
+      "solve", [&] { this->Solve(*level, rounds == 0 || rounds == 2, part(at, at, "solve")); });
     const double solveSeconds = this->Result.Convergence.Elapsed() - round;
     std::vector<std::uint8_t> unfinished;
     const bool met = this->Evaluate(*level, "rays", &unfinished);
     if (met)
     {
-      this->Result.Outcome = "the tolerance is met on 95 % of the area";
+      this->Result.Outcome = MetOutcome;
       break;
     }
     // More rays only where rays are what limits.
@@ -735,9 +845,12 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   {
     m.RunMonteCarlo(elements, stage);
   }
-  else
+  else if (!m.RunDense(elements, stage) && m.Options.Method == RadiosityMethod::Auto &&
+    m.Options.Occlusion && !m.Convex)
   {
-    m.RunDense(elements, stage);
+    m.Result.Method = RadiosityMethod::MonteCarlo;
+    m.Result.MethodWhy = "MonteCarlo: the tolerance asks for more elements than all pairs allow";
+    m.RunMonteCarlo(elements, stage);
   }
   m.Result.MethodWhy += "; " + m.Finest->F->Description();
   return m.Result;
@@ -755,6 +868,9 @@ FieldValues RadiositySimulation::IrradianceAt(
     return out;
   }
   const Level& level = *m.Finest;
+  ExchangeOptions exchange = m.Exchange();
+  exchange.RelativeTolerance = m.Options.RelativeTolerance;
+  exchange.Occlusion = exchange.Occlusion && !m.Convex;
   const auto part = [&](double from, double to, const char* name) {
     StageProgress p = stage;
     p.Begin = stage.Begin + from * (stage.End - stage.Begin);
@@ -769,7 +885,7 @@ FieldValues RadiositySimulation::IrradianceAt(
   if (!level.Emitters.Empty())
   {
     const EmitterResult e = ComputeEmitterIrradiance(m.Geometry, m.Occluders, points,
-      level.Emitters, m.Exchange(), part(0.2, 0.4, "emitters at points"));
+      level.Emitters, exchange, part(0.2, 0.4, "emitters at points"));
     for (std::size_t k = 0; k < out.Values.size(); ++k)
     {
       out.Values[k] += e.Irradiance[k];
@@ -787,20 +903,19 @@ FieldValues RadiositySimulation::IrradianceAt(
       area += a;
     }
     mean /= area;
-    const double allowed = std::max(m.Options.AbsoluteTolerance,
-      m.Options.RelativeTolerance * DarkShare * mean);
+    const double allowed =
+      std::max(m.Options.AbsoluteTolerance, m.Options.RelativeTolerance * DarkShare * mean);
     const GatherResult g = GatherAtPoints(m.Geometry, m.Occluders, level.Elements, level.Leaving,
-      static_cast<int>(m.Bands), points, allowed, m.Exchange(), part(0.4, 1.0, "final gather"));
+      static_cast<int>(m.Bands), points, allowed, exchange, part(0.4, 1.0, "final gather"));
     // The elements' own errors reach points as they reach elements: by their mean share.
     const RadiosityErrorBudget& budget = m.Result.Budget;
-    const double share = mean > 0.0
-      ? (budget.Discretisation + budget.FormFactors + budget.Solver) / mean
-      : 0.0;
+    const double share =
+      mean > 0.0 ? (budget.Discretisation + budget.FormFactors + budget.Solver) / mean : 0.0;
     for (std::size_t k = 0; k < out.Values.size(); ++k)
     {
       out.Values[k] += g.Irradiance[k];
-      out.Errors[k] = std::hypot(std::hypot(out.Errors[k], CarloCoverage * g.Error[k]),
-        share * g.Irradiance[k]);
+      out.Errors[k] =
+        std::hypot(std::hypot(out.Errors[k], CarloCoverage * g.Error[k]), share * g.Irradiance[k]);
     }
   }
   return out;

@@ -77,7 +77,7 @@ struct RadiosityResult
   ClosureReport Closure;
   std::size_t Elements = 0;
   int Iterations = 0;
-  std::int64_t Samples = 0;    // pairs and rays of the operator
+  std::int64_t Samples = 0; // pairs and rays of the operator
   std::size_t OperatorBytes = 0;
 };
 

@@ -381,16 +381,26 @@ SolveResult SolveRadiosity(const FormFactorOperator& F, const std::vector<double
   }
 
   // The bound of the inverse for the most reflecting band serves all.
-  std::vector<double> greatestRho(n, 0.0);
-  for (std::size_t k = 0; k < rho.size(); ++k)
+  int boundIterations = 0;
+  if (options.InverseBound)
   {
-    greatestRho[k / nb] = std::max(greatestRho[k / nb], rho[k]);
+    result.InverseBound = *options.InverseBound;
   }
-  System worst(F, greatestRho, 1, component, {});
-  worst.Progress.Listener = stage.Listener;
-  worst.Progress.Begin = worst.Progress.End = stage.Begin;
-  worst.Progress.Name = stage.Name;
-  const std::vector<double> w = BoundOfInverse(worst);
+  else
+  {
+    std::vector<double> greatestRho(n, 0.0);
+    for (std::size_t k = 0; k < rho.size(); ++k)
+    {
+      greatestRho[k / nb] = std::max(greatestRho[k / nb], rho[k]);
+    }
+    StageProgress still = stage;
+    still.End = still.Begin;
+    System worst(F, greatestRho, 1, component, still);
+    result.InverseBound = BoundOfInverse(worst);
+    boundIterations = worst.Iterations;
+  }
+  const std::vector<double> w =
+    result.InverseBound.empty() ? std::vector<double>(n, 1.0) : result.InverseBound;
   double greatestW = 0.0, area = 0.0;
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -404,6 +414,10 @@ SolveResult SolveRadiosity(const FormFactorOperator& F, const std::vector<double
 
   System system(F, rho, bands, component, stage);
   std::vector<double>& x = result.Radiosity;
+  if (options.Guess)
+  {
+    x = *options.Guess;
+  }
   std::vector<double> r(n * nb), best = x,
                                  bestResidual(nb, std::numeric_limits<double>::infinity());
   int stalls = 0;
@@ -465,7 +479,7 @@ SolveResult SolveRadiosity(const FormFactorOperator& F, const std::vector<double
     result.Error[k] = (residual[k % nb] + 4.0 * Epsilon * size[k % nb]) * w[k / nb];
     result.Residual = std::max(result.Residual, residual[k % nb]);
   }
-  result.Iterations = system.Iterations + worst.Iterations + 1;
+  result.Iterations = system.Iterations + boundIterations + 1;
   return result;
 }
 

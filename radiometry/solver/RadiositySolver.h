@@ -13,17 +13,23 @@ struct SolveOptions
 {
   double Tolerance = 1e-6; // of the solver's error, relative to the mean radiosity of a band
   int MaximumIterations = 400;
+  /// Bounds of the inverse from an earlier solve of (nearly) the same system, to save their cost;
+  /// null: found anew. Empty: none wanted, and the tolerance is one of the residual.
+  const std::vector<double>* InverseBound = nullptr;
+  /// Where to begin; null: at the source.
+  const std::vector<double>* Guess = nullptr;
 };
 
 /// Layout of all: element by element, `bands` values each.
 struct SolveResult
 {
-  std::vector<double> Radiosity;  // B, W/m^2
-  std::vector<double> Irradiance; // F B: what arrives from elements, W/m^2
-  std::vector<double> Error;      // bound on |Radiosity - exact solution of the discrete equation|
-  int Iterations = 0;             // applications of the operator
-  double Residual = 0.0;          // greatest |M + rho F B - B|, W/m^2
-  bool Converged = true;          // false: stopped by the limit of iterations
+  std::vector<double> Radiosity;    // B, W/m^2
+  std::vector<double> Irradiance;   // F B: what arrives from elements, W/m^2
+  std::vector<double> InverseBound; // w of each element, see below
+  std::vector<double> Error; // bound on |Radiosity - exact solution of the discrete equation|
+  int Iterations = 0;        // applications of the operator
+  double Residual = 0.0;     // greatest |M + rho F B - B|, W/m^2
+  bool Converged = true;     // false: stopped by the limit of iterations
 };
 
 /// Solves B = M + rho F B for all bands over one operator.

@@ -74,7 +74,7 @@ TEST(ElementSet, FindsTheElementOfAPoint)
   EXPECT_EQ(elements.Find(0, false, 0.3, 0.3), -1);
   EXPECT_EQ(elements.Find(-1, true, 0.3, 0.3), -1);
   std::size_t groups = 0;
-  const auto group = elements.Groups(scene, groups);
+  const auto group = elements.Groups(scene, 1, groups);
   EXPECT_EQ(groups, 13u); // twelve parents, one of which has a divided child
   EXPECT_EQ(group.size(), 51u);
 }
