@@ -306,12 +306,12 @@ def lights(scene, materials):
 
     # A pendant of 7500 lm, warm; a 22 degree accent on the sculpture; a low winter sun behind thin
     # cloud (a clear one would be some 60 000 lx and hide everything else).
-    scene.light("pendant", "point", 600.0, LAMP, color=(1.0, 0.86, 0.68))
+    scene.light("pendant", "point", 600.0, LAMP, color=(1.0, 0.92, 0.80))
     target = ((PLINTH[0] + PLINTH[1]) / 2, SCULPTURE_HEIGHT, (PLINTH[2] + PLINTH[3]) / 2)
     scene.light("picture light", "spot", 3200.0, SPOT,
-                tuple(b - a for a, b in zip(SPOT, target)), color=(1.0, 0.93, 0.82),
+                tuple(b - a for a, b in zip(SPOT, target)), color=(1.0, 0.96, 0.89),
                 cone=(12.0, 22.0))
-    scene.light("sun", "directional", 4500.0, (-2.0, 4.0, 5.5), SUN, color=(1.0, 0.94, 0.84))
+    scene.light("sun", "directional", 4500.0, (-2.0, 4.0, 5.5), SUN, color=(1.0, 0.96, 0.88))
 
 
 def main(path):
