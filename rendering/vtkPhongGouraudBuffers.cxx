@@ -227,6 +227,7 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
   }
   this->Superclass::BuildBufferObjects(ren, act);
   this->BuildCellBuffers(ren, act);
+  this->BuildMaterials(ren, act);
 }
 
 void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* act,

@@ -42,13 +42,20 @@ bool IsBlack(const double* color)
   return color[0] == 0.0 && color[1] == 0.0 && color[2] == 0.0;
 }
 
+bool NeedsLight(vtkPhongGouraudMapper* mapper)
+{
+  const int mode = mapper->GetFieldMode();
+  return mode != vtkPhongGouraudMapper::FIELD_ON && mode != vtkPhongGouraudMapper::FIELD_NORMALS;
+}
+
 } // namespace
 
 vtkPhongGouraudHelper::~vtkPhongGouraudHelper()
 {
-  this->LightBuffer.Free();
-  this->FrameBuffer.Free();
-  this->FieldBuffer.Free();
+  for (FloatBuffer* buffer : this->Buffers())
+  {
+    buffer->Free();
+  }
 }
 
 vtkPhongGouraudMapper* vtkPhongGouraudHelper::Mapper() const
@@ -65,10 +72,7 @@ bool vtkPhongGouraudHelper::DrawsItself(vtkOpenGLHelper& cellBO, vtkActor* act)
   {
     return false;
   }
-  const int mode = this->Mapper()->FieldMode;
-  const bool needsLight = mode == vtkPhongGouraudMapper::FIELD_OFF ||
-    mode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
-  if (needsLight && !act->GetProperty()->GetLighting())
+  if (NeedsLight(this->Mapper()) && !act->GetProperty()->GetLighting())
   {
     return false;
   }
@@ -107,9 +111,11 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
   need(Has(needs, "TwoSided") && objectToWorld->Determinant() < 0.0, "Mirrored");
   need(this->DrawingEdges(ren, act), "Edges");
 
-  const bool lit = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_OFF ||
-    mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
+  const bool materials = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_MATERIALS;
+  const bool lit = NeedsLight(mapper);
   need(lit, "Lit");
+  need(materials, "Materials");
+  need(materials && this->EmittingMaterials, "MaterialEmission");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON, "ShowField");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE, "FieldIsReflectance");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_NORMALS, "ShowNormals");
@@ -132,10 +138,9 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
       needs.insert(feature);
     }
     const bool lights = Has(needs, "Lights");
-    const bool specular =
-      lights && either([](vtkProperty* p) {
-        return p->GetSpecular() > 0.0 && !IsBlack(p->GetSpecularColor());
-      });
+    const bool specular = lights && (materials ? this->SpecularMaterials : either([](vtkProperty* p) {
+      return p->GetSpecular() > 0.0 && !IsBlack(p->GetSpecularColor());
+    }));
     need(specular, "Specular");
     need(Has(needs, "Point") || Has(needs, "Spot"), "Finite");
     if (!Has(needs, "Ambient"))
@@ -160,7 +165,7 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
       const bool constant = this->ConstantInCells && !specular && !Has(needs, "Finite");
       shading = constant ? vtkPhongGouraudMapper::GOURAUD : vtkPhongGouraudMapper::PHONG;
     }
-    if (shading == vtkPhongGouraudMapper::GOURAUD && !smooth)
+    if (shading == vtkPhongGouraudMapper::GOURAUD && (!smooth || (materials && specular)))
     {
       shading = vtkPhongGouraudMapper::PHONG;
     }
@@ -235,6 +240,8 @@ void vtkPhongGouraudHelper::SetLightingShaderParameters(
   bind("radiometryLights", this->LightBuffer);
   bind("radiometryCellFrames", this->FrameBuffer);
   bind("radiometryField", this->FieldBuffer);
+  bind("radiometryMaterials", this->MaterialBuffer);
+  bind("radiometryMaterialOfCell", this->MaterialOfCellBuffer);
   const char* ranges[] = { "directionalRange", "pointRange", "spotRange" };
   for (int kind = 0; kind < 3; ++kind)
   {
@@ -321,9 +328,10 @@ void vtkPhongGouraudHelper::RenderPieceStart(vtkRenderer* ren, vtkActor* act)
   if (!ren->GetSelector())
   {
     this->LightBuffer.Upload(ren, std::vector<float>(this->Lights.Texels));
-    this->LightBuffer.Activate();
-    this->FrameBuffer.Activate();
-    this->FieldBuffer.Activate();
+    for (FloatBuffer* buffer : this->Buffers())
+    {
+      buffer->Activate();
+    }
   }
 }
 
@@ -332,17 +340,19 @@ void vtkPhongGouraudHelper::RenderPieceFinish(vtkRenderer* ren, vtkActor* act)
   this->Superclass::RenderPieceFinish(ren, act);
   if (!ren->GetSelector())
   {
-    this->LightBuffer.Deactivate();
-    this->FrameBuffer.Deactivate();
-    this->FieldBuffer.Deactivate();
+    for (FloatBuffer* buffer : this->Buffers())
+    {
+      buffer->Deactivate();
+    }
   }
 }
 
 void vtkPhongGouraudHelper::ReleaseGraphicsResources(vtkWindow* win)
 {
-  this->LightBuffer.Release(win);
-  this->FrameBuffer.Release(win);
-  this->FieldBuffer.Release(win);
+  for (FloatBuffer* buffer : this->Buffers())
+  {
+    buffer->Release(win);
+  }
   this->Signatures.clear();
   this->Superclass::ReleaseGraphicsResources(win);
 }

@@ -18,6 +18,7 @@
 
 #include "vtkCompositeMapperHelper2.h"
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -76,6 +77,12 @@ private:
     void Free();
   };
 
+  std::array<FloatBuffer*, 5> Buffers()
+  {
+    return { { &this->LightBuffer, &this->FrameBuffer, &this->FieldBuffer, &this->MaterialBuffer,
+      &this->MaterialOfCellBuffer } };
+  }
+
   vtkPhongGouraudMapper* Mapper() const;
   /// Polygons in an ordinary pass: everything else is drawn by VTK.
   bool DrawsItself(vtkOpenGLHelper& cellBO, vtkActor* act);
@@ -86,6 +93,7 @@ private:
   void CollectLights(vtkRenderer* ren, vtkActor* act);
   void AppendField(vtkCompositeMapperHelperData* hdata, bool newPoints);
   void BuildCellBuffers(vtkRenderer* ren, vtkActor* act);
+  void BuildMaterials(vtkRenderer* ren, vtkActor* act);
   /// The field of a block and its back's (the front's where it has none of its own).
   struct BlockField
   {
@@ -103,6 +111,8 @@ private:
   bool FieldOfCells = false;
   bool FieldOfPoints = false;
   bool FieldOfBack = false; // some block has a field for its back
+  bool SpecularMaterials = false; // some cell's material has a highlight
+  bool EmittingMaterials = false; // ... gives light
   bool ConstantInCells = false; // one normal at all points of each cell
   // Of blocks in whose points others may share: the field they were drawn with.
   std::map<vtkDataArray*, vtkDataArray*> FieldOfShared;
@@ -110,6 +120,8 @@ private:
   FloatBuffer LightBuffer;
   FloatBuffer FrameBuffer;
   FloatBuffer FieldBuffer;
+  FloatBuffer MaterialBuffer;       // the materials
+  FloatBuffer MaterialOfCellBuffer; // which one a triangle has
 
   vtkPhongGouraudHelper(const vtkPhongGouraudHelper&) = delete;
   void operator=(const vtkPhongGouraudHelper&) = delete;

@@ -59,7 +59,8 @@ public:
     FIELD_OFF = 0,
     FIELD_ON = 1,
     FIELD_NORMALS = 2,
-    FIELD_REFLECTANCE = 3
+    FIELD_REFLECTANCE = 3,
+    FIELD_MATERIALS = 4
   };
 
   ///@{
@@ -176,6 +177,10 @@ public:
    * after it (RadiosityBack) is what the back shows; without one, both sides show the same.
    * Reflectance: the array is the diffuse reflectance that the lights
    * light. Normals: the unit normal of the shaded side, in world coordinates, as RGB in [-1, 1].
+   * Materials: the lights light the surface arrays of docs/arrays.md (DiffuseReflectance,
+   * SpecularReflectance, Shininess, EmittedExitance/pi as radiance, Back... of each, TwoSided), of
+   * cells or of a whole block as field data; where an array is missing, the actor's property.
+   * With specular reflectance Gouraud becomes Phong: the exponent belongs to the cell.
    */
   void SetFieldMode(int mode);
   vtkGetMacro(FieldMode, int);
@@ -183,6 +188,7 @@ public:
   void SetFieldModeToOn() { this->SetFieldMode(FIELD_ON); }
   void SetFieldModeToNormals() { this->SetFieldMode(FIELD_NORMALS); }
   void SetFieldModeToReflectance() { this->SetFieldMode(FIELD_REFLECTANCE); }
+  void SetFieldModeToMaterials() { this->SetFieldMode(FIELD_MATERIALS); }
   void SetFieldArrayName(const char* name);
   const char* GetFieldArrayName() { return this->FieldArrayName.c_str(); }
   ///@}

@@ -47,6 +47,21 @@
   diffuseColor = field;
   ambientColor = ambientIntensity * field;
 //@end
+//@if Materials
+  int materialOfCell =
+    int(texelFetch(radiometryMaterialOfCell, gl_PrimitiveID + PrimitiveIDOffset).r);
+  int material = 6 * materialOfCell;
+//@if TwoSided
+  material += frontFacing ? 0 : 3;
+//@end
+  vec4 materialDiffuse = texelFetch(radiometryMaterials, material);
+  diffuseColor = materialDiffuse.rgb;
+  ambientColor = ambientIntensity * materialDiffuse.rgb;
+//@if Specular
+  specularColor = texelFetch(radiometryMaterials, material + 1).rgb;
+  specularPower = materialDiffuse.a;
+//@end
+//@end
 //@if ShowField
   gl_FragData[0] = vec4(field, opacity);
 //@end
@@ -101,6 +116,9 @@
   color += specularColor * sums.specular;
 //@end
 //@end
+//@end
+//@if MaterialEmission
+  color += texelFetch(radiometryMaterials, material + 2).rgb;
 //@end
 //@if Emission
 //@if TwoSided

@@ -20,6 +20,12 @@ in vec3 fieldVSOutput;
 in vec3 fieldBackVSOutput;
 //@end
 //@end
+//@if Materials
+// For each triangle the number of its material; for each material, front then back: diffuse
+// reflectance and exponent, specular reflectance, emitted radiance.
+uniform samplerBuffer radiometryMaterialOfCell;
+uniform samplerBuffer radiometryMaterials;
+//@end
 //@if ShowNormals
 uniform mat3 viewToWorld;
 //@end

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surface arrays of docs/arrays.md as materials of the picture, for vtkPhongGouraudHelper.
+#include "vtkPhongGouraudHelper.h"
+
+#include "vtkPhongGouraudMapper.h"
+
+#include "radiometry/scene/ArrayNames.h"
+
+#include "vtkActor.h"
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkMath.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+
+namespace
+{
+
+namespace names = radiometry::names;
+
+/// Front, then back: diffuse reflectance and exponent, specular reflectance, emitted radiance.
+using Material = std::array<float, 24>;
+
+/// An order that holds for any float, NaN included.
+struct ByBytes
+{
+  bool operator()(const Material& a, const Material& b) const
+  {
+    return std::memcmp(a.data(), b.data(), sizeof(Material)) < 0;
+  }
+};
+
+/// An array of the cells, or of the whole block as field data of one tuple.
+class SurfaceArray
+{
+public:
+  SurfaceArray(vtkPolyData* block, const std::string& name)
+    : Array(block->GetCellData()->GetArray(name.c_str()))
+  {
+    if (!this->Array || this->Array->GetNumberOfTuples() != block->GetNumberOfCells())
+    {
+      this->Array = block->GetFieldData()->GetArray(name.c_str());
+      this->Whole = true;
+      if (this->Array && this->Array->GetNumberOfTuples() != 1)
+      {
+        this->Array = nullptr;
+      }
+    }
+  }
+  explicit operator bool() const { return this->Array != nullptr; }
+  /// As RGB: three bands as they are, any other number by their mean.
+  void Rgb(vtkIdType cell, double scale, float* rgb) const
+  {
+    const vtkIdType i = this->Whole ? 0 : cell;
+    const int bands = this->Array->GetNumberOfComponents();
+    double sum = 0.0;
+    for (int b = 0; b < bands; ++b)
+    {
+      const double value = scale * this->Array->GetComponent(i, b);
+      sum += value;
+      if (bands == 3)
+      {
+        rgb[b] = static_cast<float>(value);
+      }
+    }
+    if (bands != 3)
+    {
+      std::fill_n(rgb, 3, static_cast<float>(sum / bands));
+    }
+  }
+  double Value(vtkIdType cell) const
+  {
+    return this->Array->GetComponent(this->Whole ? 0 : cell, 0);
+  }
+
+private:
+  vtkDataArray* Array;
+  bool Whole = false;
+};
+
+/// The arrays of one block: the materials of its cells.
+class BlockMaterials
+{
+public:
+  BlockMaterials(vtkPolyData* block, vtkActor* actor)
+    : Actor(actor)
+    , TwoSided(block, names::TwoSided)
+    , Sides{ { Side(block, ""), Side(block, names::BackPrefix) } }
+  {
+  }
+  Material At(vtkIdType cell) const
+  {
+    Material material{};
+    this->FromProperty(this->Actor->GetProperty(), &material[0]);
+    this->FromProperty(this->Actor->GetBackfaceProperty(), &material[12]);
+    this->Sides[0].Read(cell, &material[0]);
+    if (!this->Actor->GetBackfaceProperty())
+    {
+      std::copy_n(&material[0], 12, &material[12]);
+    }
+    this->Sides[1].Read(cell, &material[12]);
+    if (this->TwoSided && this->TwoSided.Value(cell) == 0.0)
+    {
+      std::fill_n(&material[12], 12, 0.0f); // nothing is reflected or emitted there
+    }
+    return material;
+  }
+
+private:
+  struct Side
+  {
+    Side(vtkPolyData* block, const std::string& prefix)
+      : Diffuse(block, prefix + names::DiffuseReflectance)
+      , Specular(block, prefix + names::SpecularReflectance)
+      , Exitance(block, prefix + names::EmittedExitance)
+      , Shininess(block, prefix + names::Shininess)
+    {
+    }
+    void Read(vtkIdType cell, float* texels) const
+    {
+      if (this->Diffuse)
+      {
+        this->Diffuse.Rgb(cell, 1.0, texels);
+      }
+      if (this->Shininess)
+      {
+        texels[3] = static_cast<float>(this->Shininess.Value(cell));
+      }
+      if (this->Specular)
+      {
+        this->Specular.Rgb(cell, 1.0, texels + 4);
+      }
+      if (this->Exitance)
+      {
+        this->Exitance.Rgb(cell, 1.0 / vtkMath::Pi(), texels + 8); // a Lambertian emitter
+      }
+    }
+    SurfaceArray Diffuse;
+    SurfaceArray Specular;
+    SurfaceArray Exitance;
+    SurfaceArray Shininess;
+  };
+  static void FromProperty(vtkProperty* property, float* texels)
+  {
+    for (int c = 0; property && c < 3; ++c)
+    {
+      texels[c] = static_cast<float>(property->GetDiffuse() * property->GetDiffuseColor()[c]);
+      texels[4 + c] = static_cast<float>(property->GetSpecular() * property->GetSpecularColor()[c]);
+      texels[3] = static_cast<float>(property->GetSpecularPower());
+    }
+  }
+  vtkActor* Actor;
+  SurfaceArray TwoSided;
+  std::array<Side, 2> Sides;
+};
+
+} // namespace
+
+void vtkPhongGouraudHelper::BuildMaterials(vtkRenderer* ren, vtkActor* act)
+{
+  this->SpecularMaterials = false;
+  this->EmittingMaterials = false;
+  if (this->Mapper()->FieldMode != vtkPhongGouraudMapper::FIELD_MATERIALS || this->Data.empty() ||
+    act->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  {
+    this->MaterialBuffer.Free();
+    this->MaterialOfCellBuffer.Free();
+    return;
+  }
+  std::map<Material, int, ByBytes> numbers; // few: most cells share theirs
+  std::vector<float> texels;
+  std::vector<float> ofTriangle;
+  for (auto& data : this->Data)
+  {
+    const BlockMaterials materials(data.first, act);
+    vtkOpenGLCellToVTKCellMap* map = data.second->CellCellMap;
+    ofTriangle.resize(4 * static_cast<std::size_t>(map->GetFinalOffset()), 0.0f);
+    const std::size_t begin = static_cast<std::size_t>(map->GetPrimitiveOffsets()[0]);
+    for (std::size_t i = 0; i < map->GetSize(); ++i)
+    {
+      const Material material = materials.At(map->GetValue(i));
+      const auto found = numbers.emplace(material, static_cast<int>(numbers.size()));
+      if (found.second)
+      {
+        texels.insert(texels.end(), material.begin(), material.end());
+        const auto lit = [&material](int first) {
+          return material[first] != 0.0f || material[first + 1] != 0.0f ||
+            material[first + 2] != 0.0f;
+        };
+        this->SpecularMaterials = this->SpecularMaterials || lit(4) || lit(16);
+        this->EmittingMaterials = this->EmittingMaterials || lit(8) || lit(20);
+      }
+      ofTriangle[4 * (begin + i)] = static_cast<float>(found.first->second);
+    }
+  }
+  this->MaterialBuffer.Upload(ren, std::move(texels));
+  this->MaterialOfCellBuffer.Upload(ren, std::move(ofTriangle));
+}
