@@ -182,6 +182,16 @@ output.CellData.append(numpy.array([0.1, 0.4, 0.8, 7.0]), "Radiosity")"""
     surface.FieldDisplay = "Normals"
     expect(picture(view), 0.45, 0.45, (0, 0, 1), 0.51)
 
+    cells.Script = """import numpy
+output.CellData.append(numpy.array([0.2, 0.4, 0.6, 0.8]), "DiffuseReflectance")"""
+    surface.FieldDisplay = "Materials of the data"
+    sun = pv.DirectionalLight(Direction=[0, 0, -1], Intensity=math.pi)
+    show_lights(sun, view)
+    image = picture(view)
+    for cell, value in enumerate((0.2, 0.4, 0.6, 0.8)):
+        expect(image, -0.45 + 0.9 * (cell % 2), -0.45 + 0.9 * (cell // 2), (value,) * 3, 0.51)
+    pv.Hide(sun, view)
+
     points = pv.Calculator(Input=plane, AttributeType="Point Data", ResultArrayName="Radiance",
                            Function="0.5 + coordsX/2")
     pv.Hide(cells, view)
