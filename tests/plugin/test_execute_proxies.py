@@ -25,12 +25,21 @@ def say(*words):
 
 
 def definitions():
-    """(group, proxy element) of every proxy that our XML defines with a class."""
+    """{(group, name): proxy element} of every proxy that our XML defines with a class."""
+    found = {}
     for path in sorted(glob.glob(os.path.join(SOURCE, "paraview-xml", "*.xml"))):
         for group in ElementTree.parse(path).getroot().iter("ProxyGroup"):
             for element in group:
                 if element.tag.endswith("Proxy") and element.get("class"):
-                    yield group.get("name"), element
+                    found[group.get("name"), element.get("name")] = element
+    return found
+
+
+def input_properties(element, known):
+    """The proxy's input properties, those of the proxy that it is based on first."""
+    base = known.get((element.get("base_proxygroup"), element.get("base_proxyname")))
+    inherited = input_properties(base, known) if base is not None else []
+    return inherited + list(element.iter("InputProperty"))
 
 
 def input_type(prop):
@@ -82,7 +91,11 @@ with tempfile.TemporaryDirectory() as folder:
     view.ViewSize = [200, 150]
     seen = {"sources": 0, "filters": 0, "representations": 0}
     files = {".gltf": gltf}
-    everything = sorted(definitions(), key=lambda d: d[0] not in ("sources", "writers"))
+    known = definitions()
+    # Groups that end in _internal hold what other proxies are based on, never created itself.
+    everything = [(group, element) for (group, _), element in known.items()
+                  if not group.endswith("_internal")]
+    everything.sort(key=lambda d: d[0] not in ("sources", "writers"))
     everything.sort(key=lambda d: d[1].get("class") == "vtkOpenEXRReader")  # after the writer
     for group, element in everything:
         name = element.get("name")
@@ -97,7 +110,7 @@ with tempfile.TemporaryDirectory() as folder:
                 proxy.FileName = files[".exr"]
             elif proxy.GetProperty("FileName") is not None:
                 proxy.FileName = gltf
-            for prop in element.iter("InputProperty"):
+            for prop in input_properties(element, known):
                 producer = provide(prop, plane)
                 if producer is not None:
                     setattr(proxy, prop.get("name"), producer)
@@ -111,7 +124,7 @@ with tempfile.TemporaryDirectory() as folder:
             proxy = servermanager._getPyProxy(
                 servermanager.ProxyManager().NewProxy(group, name))
             proxy.FileName = files[extension]
-            prop = next(element.iter("InputProperty"))
+            prop = input_properties(element, known)[0]
             proxy.Input = provide(prop, plane)
             proxy.UpdatePipeline()
             check(os.path.getsize(files[extension]) > 100, f"{label} wrote nothing")
