@@ -61,7 +61,7 @@ class Camera:
         """From the view point, in metres."""
         return float(np.linalg.norm(np.asarray(point) - self.position))
 
-    def _half_height(self, aspect):
+    def half_height(self, aspect):
         """Half the picture's height at distance 1 (or in metres, if parallel), so that nothing
         that the camera shows is cut off at another aspect."""
         half = (0.5 * self.parallel_height if self.parallel_height
@@ -74,7 +74,7 @@ class Camera:
         camera.SetPosition(*self.position)
         camera.SetFocalPoint(*self.focal_point)
         camera.SetViewUp(*self.up)
-        half = self._half_height(aspect)
+        half = self.half_height(aspect)
         if self.parallel_height:
             camera.ParallelProjectionOn()
             camera.SetParallelScale(half)
@@ -88,7 +88,7 @@ class Camera:
         the length of `share` of the picture's height there."""
         right, above, forward = self.axes()
         depth = self.distance_to(self.focal_point)
-        half = self._half_height(aspect) * (1.0 if self.parallel_height else depth)
+        half = self.half_height(aspect) * (1.0 if self.parallel_height else depth)
         place = self.position + depth * forward + half * (x * aspect * right + y * above)
         return place, 2.0 * half * share
 
@@ -99,7 +99,7 @@ class Camera:
         the depth Z of the point that it meets.
         """
         right, above, forward = self.axes()
-        half = self._half_height(width / height)
+        half = self.half_height(width / height)
         x = ((np.arange(width) + 0.5) / width * 2.0 - 1.0) * half * width / height
         y = ((np.arange(height) + 0.5) / height * 2.0 - 1.0) * half
         offset = x[None, :, None] * right + y[:, None, None] * above

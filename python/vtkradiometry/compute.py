@@ -35,8 +35,9 @@ class Result:
         return [dict(zip(names, row)) for row in rows]
 
     def facts(self):
-        """The surface's field data (units, version, options ...) as a dictionary."""
-        return field_facts(self.surface)
+        """What the filter says about its result (units, options, outcome) as a dictionary."""
+        return {name[len("Radiometry"):]: value for name, value in field_facts(self.surface).items()
+                if name.startswith("Radiometry")}
 
 
 def field_facts(data):

@@ -2,11 +2,7 @@
 """falsecolor.png: a quantity on the geometry, with legend, iso-lines and the lights."""
 import numpy as np
 from matplotlib import colormaps
-from vtkmodules.util.numpy_support import (
-    numpy_to_vtk,
-    numpy_to_vtkIdTypeArray,
-    vtk_to_numpy,
-)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkFeatureEdges
@@ -24,7 +20,7 @@ from vtkmodules.vtkRenderingCore import (
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (text)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the renderer)
 
-from . import glyphs, mesh
+from . import glyphs
 from .scales import format_number
 
 PAPER = (1.0, 1.0, 1.0)
@@ -56,7 +52,7 @@ def _text(text, x, y, size, bold=False, vertical="Bottom"):
     return actor
 
 
-def _surface_actor(field, table, culling):
+def _surface_actor(field, table):
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(field)
     mapper.SetLookupTable(table)
@@ -69,7 +65,6 @@ def _surface_actor(field, table, culling):
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().LightingOff()  # the colour is the value, not a shade of it
-    actor.GetProperty().SetBackfaceCulling(culling)
     return actor
 
 
@@ -84,23 +79,6 @@ def _line_actor(algorithm, colour, width):
     style.SetColor(colour)
     style.SetLineWidth(width)
     return actor
-
-
-def _facing(field, camera):
-    """The cells of `field` that turn their fronts to the camera."""
-    corner = mesh.points(field)[mesh.triangles(field)]
-    away = corner.mean(axis=1) - (camera.position if not camera.parallel_height else 0.0)
-    if camera.parallel_height:
-        away[:] = camera.axes()[2]
-    front = np.einsum("ij,ij->i", mesh.cross_products(field), away) < 0.0
-    part = vtkPolyData()
-    part.ShallowCopy(field)
-    cells = vtkCellArray()
-    chosen = mesh.triangles(field)[front].astype(np.int64)
-    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, chosen.size + 1, 3), deep=True),
-                  numpy_to_vtkIdTypeArray(chosen.reshape(-1), deep=True))
-    part.SetPolys(cells)
-    return part
 
 
 def _iso_lines(field, levels):
@@ -165,11 +143,11 @@ def _legend(renderer, table, scale, left, bottom, right, top):
     renderer.AddActor2D(_rectangles(ticks, [[255.0 * c for c in INK]] * len(ticks)))
 
 
-def write(path, field, scale, heading, notes, lights, camera, size, culling=False):
+def write(path, field, outline, scale, heading, notes, lights, camera, size):
     """Draws `field` (polydata with the point array Quantity) and writes the PNG.
 
-    heading: quantity and unit; notes: lines under the legend; lights: the light polydata; culling:
-    leave out surfaces that turn their backs (the near walls of a room seen from outside).
+    outline: the surface whose creases are drawn; heading: quantity and unit; notes: lines under
+    the legend; lights: the light polydata.
     """
     pixels = [side * OVERSAMPLING for side in size]
     window = vtkRenderWindow()
@@ -189,12 +167,11 @@ def write(path, field, scale, heading, notes, lights, camera, size, culling=Fals
     main.SetBackground(0.86, 0.87, 0.89)
 
     table = lookup_table(scale)
-    main.AddActor(_surface_actor(field, table, culling))
+    main.AddActor(_surface_actor(field, table))
     inner = [level for level in scale.levels if scale.low < level < scale.high]
     if inner:
-        facing = _facing(field, camera) if culling else field
-        main.AddActor(_line_actor(_iso_lines(facing, inner), (1.0, 1.0, 1.0), 1.1 * OVERSAMPLING))
-    creases = _line_actor(_creases(field), INK, 0.9 * OVERSAMPLING)
+        main.AddActor(_line_actor(_iso_lines(field, inner), (1.0, 1.0, 1.0), 1.1 * OVERSAMPLING))
+    creases = _line_actor(_creases(outline), INK, 0.9 * OVERSAMPLING)
     creases.GetProperty().SetOpacity(0.7)
     main.AddActor(creases)
 

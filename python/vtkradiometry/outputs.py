@@ -13,9 +13,10 @@ from .faults import Listener
 from .image_file import write_exr
 from .scales import Scale, format_number
 from .versions import versions
+from .view_mesh import ViewMesh
+from .vtkRadiometryFilters import vtkIrradianceFilter
 
-RESULTS = ("Irradiance", "IrradianceError", "Radiosity", "RadiosityError", "IrradianceBack",
-           "IrradianceBackError", "RadiosityBack", "RadiosityBackError", "DirectIrradiance",
+RESULTS = ("Irradiance", "IrradianceError", "Radiosity", "RadiosityError", "DirectIrradiance",
            "DirectIrradianceError")
 
 
@@ -38,7 +39,8 @@ def merge(results):
     for result in results[:-1]:
         for data, target in ((result.surface.GetCellData(), surface.GetCellData()),
                              (result.surface.GetPointData(), surface.GetPointData())):
-            for name in ("Irradiance", "IrradianceError"):
+            for name in ("Irradiance", "IrradianceError", "IrradianceBack",
+                         "IrradianceBackError"):
                 array = data.GetArray(name)
                 if array is None:
                     continue
@@ -72,43 +74,81 @@ def option_values(options):
     return {key: value for key, value in sorted(values.items()) if value is not None}
 
 
-def _false_colour(output, scene, smooth, surface, options, summary):
+def _seen(surface, name, back):
+    """The result `name` per cell on the side that the picture shows."""
+    front = quantities.per_cell(surface, name)
+    stem, error = (name[:-5], "Error") if name.endswith("Error") else (name, "")
+    rear = quantities.per_cell(surface, stem + "Back" + error) if back.any() else None
+    if front is None or rear is None:
+        return front
+    return np.where(back[:, None], rear, front)
+
+
+class View:
+    """Irradiance and radiance at the points of a mesh made for the picture (view_mesh.py)."""
+
+    def __init__(self, scene, surface, options, progress):
+        self.smooth = mesh.SmoothSurface(surface)
+        two_sided = scene.two_sided(surface, options.two_sided)
+        self.mesh = ViewMesh(surface, self.smooth, scene.camera, options.size, two_sided)
+        back = self.mesh.back
+        direct = _seen(surface, "DirectIrradiance", back)
+        irradiance = _seen(surface, "Irradiance", back)
+        self.irradiance = self._direct(scene, surface, options, progress)
+        if direct is not None:  # what other surfaces send
+            rest = np.maximum(irradiance - direct, 0.0)
+            self.irradiance = self.irradiance + self.mesh.from_computed(
+                self.smooth.to_points(rest))
+        reflectance = mesh.cell_array(surface, "DiffuseReflectance")
+        if reflectance is None:
+            reflectance = np.full((len(back), 1), 0.5)
+        emitted = mesh.cell_array(surface, "EmittedExitance")
+        radiosity = self.mesh.from_computed(self.smooth.to_points(reflectance)) * self.irradiance
+        if emitted is not None:
+            radiosity = radiosity + self.mesh.from_computed(self.smooth.to_points(emitted))
+        self.radiance = radiosity / math.pi
+
+    def _direct(self, scene, surface, options, progress):
+        if scene.lights.GetNumberOfPoints() == 0:
+            return np.zeros((len(self.mesh.xyz), 1))
+        direct = vtkIrradianceFilter()
+        direct.SetInputDataObject(0, self.mesh.receiver(surface))
+        direct.AddInputDataObject(1, scene.lights)
+        direct.SetRelativeTolerance(max(options.tolerance, 0.02))
+        direct.SetNumberOfThreads(options.threads)
+        with progress.filter(direct), Listener() as listener:
+            listener.observe(direct)
+            direct.Update()
+            listener.check("picture")
+        progress.check()
+        return self.mesh.from_cells(
+            quantities.per_cell(direct.GetOutputDataObject(0), "Irradiance"))
+
+
+def _false_colour(output, scene, view, surface, options, summary):
     photometric = bool(np.any(field_facts(scene.lights).get("Photometric", 1)))
     quantity, heading, unit = quantities.choose_quantity(options.quantity, photometric)
-    values = quantities.total(quantities.per_cell(surface, "Irradiance"), quantity,
-                              scene.efficacy())
-    scale = Scale.choose(values, smooth.area, options.scale, options.range)
-    field = smooth.polydata({"Quantity": smooth.to_points(values[:, None])[:, 0]})
-    error = summary["error"]
-    notes = [f"mean {format_number(summary['mean'][quantity])} {unit}",
-             f"estimated error {quantities.format_percent(error)} of the mean"]
+    shown = quantities.total(_seen(surface, "Irradiance", view.mesh.back), quantity,
+                             scene.efficacy())
+    scale = Scale.choose(shown, view.smooth.area, options.scale, options.range)
+    field = view.mesh.polydata(
+        {"Quantity": quantities.total(view.irradiance, quantity, scene.efficacy())})
+    notes = [f"mean of all fronts {format_number(summary['mean'][quantity])} {unit}",
+             f"estimated error {quantities.format_percent(summary['error'])} of it"]
     where = output.path("falsecolor.png", f"{heading.lower()} in {unit} as false colour, with "
                         "legend, iso-lines and lights")
-    falsecolor.write(where, field, scale, (heading, unit), notes, scene.lights, scene.camera,
-                     options.size, culling=not scene.two_sided)
-    return {"quantity": quantity, "unit": unit, "low": scale.low, "high": scale.high,
-            "scale": "log" if scale.log else "linear", "iso-lines": scale.levels}
+    falsecolor.write(where, field, view.smooth.polydata({}), scale, (heading, unit), notes,
+                     scene.lights, scene.camera, options.size)
+    return {"falsecolor.png": f"{heading} in {unit}, {'logarithmic' if scale.log else 'linear'} "
+            f"from {format_number(scale.low)} to {format_number(scale.high)}",
+            "iso-lines": [float(level) for level in scale.levels]}
 
 
-def _radiance(surface):
-    """Radiance of what leaves the fronts diffusely; what arrives, where nothing else is known."""
-    radiosity = quantities.per_cell(surface, "Radiosity")
-    if radiosity is None:
-        radiosity = quantities.per_cell(surface, "Irradiance")
-        reflectance = mesh.cell_array(surface, "DiffuseReflectance")
-        radiosity = radiosity * (0.5 if reflectance is None else reflectance)
-        emitted = mesh.cell_array(surface, "EmittedExitance")
-        if emitted is not None:
-            radiosity = radiosity + emitted
-    return radiosity / math.pi
-
-
-def _pictures(output, scene, smooth, surface, options):
-    drawn = picture.render(smooth, _radiance(surface), scene.camera, options.size,
-                           culling=not scene.two_sided)
+def _pictures(output, scene, view, surface, options):
+    drawn = picture.render(view.mesh, view.radiance, scene.camera, options.size)
     layers = {}
     for name in RESULTS:
-        values = quantities.per_cell(surface, name)
+        values = _seen(surface, name, view.mesh.back)
         if values is not None:
             layers[name] = drawn.of_cells(values)
     exposure = options.exposure
@@ -121,7 +161,8 @@ def _pictures(output, scene, smooth, surface, options):
     path = output.path("scene.png", "the same picture through OpenColorIO's display transform")
     shown = picture.write_png(path, drawn.rgb, exposure, options.display, options.view)
     return {"exposure in stops": round(exposure, 3), **shown,
-            "size": "x".join(map(str, options.size)), "camera": scene.camera.origin}
+            "size": "x".join(map(str, options.size)), "camera": scene.camera.origin,
+            "triangles in the picture's mesh": len(view.mesh.origin)}
 
 
 def _summary(surface, areas, scene):
@@ -144,10 +185,10 @@ def write_all(output, scene, results, options, progress):
                            "(ParaView opens it)")
         _write_surface(path, surface, scene, options)
     with progress.stage("Drawing"):
-        smooth = mesh.SmoothSurface(surface)
-        pictures = _pictures(output, scene, smooth, surface, options)
+        view = View(scene, surface, options, progress)
+        pictures = _pictures(output, scene, view, surface, options)
     with progress.stage("False colour"):
-        pictures["falsecolor.png"] = _false_colour(output, scene, smooth, surface, options, summary)
+        pictures.update(_false_colour(output, scene, view, surface, options, summary))
     with progress.stage("Convergence"):
         tables = [(result.name, result.convergence) for result in results]
         plots.write_png(output.path("convergence.png", "estimated error against seconds"), tables,

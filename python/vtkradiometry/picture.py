@@ -14,7 +14,6 @@ from .vtkRadiometryRendering import (
     vtkOpenColorIOImageFilter,
     vtkPhongGouraudMapper,
 )
-from . import mesh
 from .faults import Listener
 
 SAMPLES = 3  # of a pixel in each direction; averaged in scene-linear light
@@ -32,7 +31,7 @@ def as_rgb(values):
 class Drawing:
     """One surface drawn again and again with other arrays, into a float frame buffer."""
 
-    def __init__(self, surface, camera, culling):
+    def __init__(self, surface, camera):
         self.camera = camera
         self.mapper = vtkPhongGouraudMapper()
         self.mapper.SetInputDataObject(surface)
@@ -40,7 +39,6 @@ class Drawing:
         self.mapper.ScalarVisibilityOff()
         actor = vtkActor()
         actor.SetMapper(self.mapper)
-        actor.GetProperty().SetBackfaceCulling(culling)
         self.renderer = vtkRenderer()
         self.renderer.SetBackground(0.0, 0.0, 0.0)
         self.renderer.AddActor(actor)
@@ -75,45 +73,45 @@ class Drawing:
 
 
 class Picture:
-    """The linear picture and, for each pixel, the cell seen at its centre (-1: none)."""
+    """The linear picture and, for each pixel, the computed cell seen at its centre (-1: none)."""
 
     def __init__(self, rgb, cells, depth, normal):
         self.rgb, self.cells, self.depth, self.normal = rgb, cells, depth, normal
 
     def of_cells(self, values):
-        """Values per cell (T, n) as (height, width, n); 0 where nothing is seen."""
+        """Values per computed cell (T, n) as (height, width, n); 0 where nothing is seen."""
         values = np.asarray(values, dtype=np.float32).reshape(-1, np.shape(values)[-1])
         image = values[np.maximum(self.cells, 0)]
         image[self.cells < 0] = 0.0
         return image
 
 
-def render(smooth, radiance, camera, size, culling):
-    """Draws the radiance (per cell) smoothly, and finds the cell, depth and normal of each pixel."""
+def render(view, radiance, camera, size):
+    """Draws the radiance (at the points of the view mesh), and finds the computed cell, depth and
+    normal of each pixel."""
     width, height = size
-    surface = smooth.polydata(
-        {"Radiance": smooth.to_points(as_rgb(radiance)).astype(np.float32)},
-        {"CellNumber": np.arange(1, len(smooth.corner) + 1, dtype=np.float32)})
-    drawing = Drawing(surface, camera, culling)
+    surface = view.polydata({"Radiance": as_rgb(radiance).astype(np.float32)})
+    drawing = Drawing(surface, camera)
     try:
         rgb = drawing.draw("Radiance", 0, width, height, SAMPLES)[:, :, :3]
-        number = drawing.draw("CellNumber", 1, width, height, 1)[:, :, 0]
+        number = drawing.draw("TriangleNumber", 1, width, height, 1)[:, :, 0]
     finally:
         drawing.close()
-    cells = np.rint(number).astype(np.int64) - 1
-    depth, normal = _geometry(smooth, cells, camera)
+    fine = np.rint(number).astype(np.int64) - 1
+    depth, normal = _geometry(view, fine, camera)
+    cells = np.where(fine >= 0, view.origin[np.maximum(fine, 0)], -1)
     return Picture(rgb, cells, depth, normal)
 
 
-def _geometry(smooth, cells, camera):
+def _geometry(view, fine, camera):
     """Depth along the view axis (infinite where nothing is seen) and the smooth normal."""
-    height, width = cells.shape
+    height, width = fine.shape
     origin, direction = camera.rays(width, height)
-    seen = cells >= 0
-    depth = np.full(cells.shape, np.inf)
-    normal = np.zeros(cells.shape + (3,))
-    chosen = cells[seen]
-    corner = smooth.xyz[smooth.corner[chosen]]
+    seen = fine >= 0
+    depth = np.full(fine.shape, np.inf)
+    normal = np.zeros(fine.shape + (3,))
+    chosen = view.corner[fine[seen]]
+    corner = view.xyz[chosen]
     o, d = origin[seen], direction[seen]
     edge1, edge2 = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     p = np.cross(d, edge2)
@@ -123,17 +121,14 @@ def _geometry(smooth, cells, camera):
     u = np.einsum("ij,ij->i", s, p) / determinant
     q = np.cross(s, edge1)
     v = np.einsum("ij,ij->i", d, q) / determinant
-    depth[seen] = np.einsum("ij,ij->i", edge2, q) / determinant
     # A pixel's centre may fall a rounding error outside the triangle that was drawn there.
     weight = np.clip(np.stack([1.0 - u - v, u, v], axis=1), 0.0, 1.0)
-    smooth_normal = np.einsum("ij,ijk->ik", weight, smooth.normal[smooth.corner[chosen]])
+    weight /= weight.sum(axis=1, keepdims=True)
+    place = np.einsum("ij,ijk->ik", weight, corner)
+    depth[seen] = (place - camera.position) @ camera.axes()[2]
+    smooth_normal = np.einsum("ij,ijk->ik", weight, view.normal[chosen])
     length = np.linalg.norm(smooth_normal, axis=1, keepdims=True)
-    smooth_normal /= np.maximum(length, np.finfo(float).tiny)
-    away = np.einsum("ij,ij->i", smooth_normal, d) > 0.0
-    geometric = np.cross(edge1, edge2)
-    back = np.einsum("ij,ij->i", geometric, d) > 0.0
-    smooth_normal[back & away] *= -1.0  # the back of a two-sided surface
-    normal[seen] = smooth_normal
+    normal[seen] = smooth_normal / np.maximum(length, np.finfo(float).tiny)
     return depth, normal
 
 

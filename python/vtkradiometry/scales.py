@@ -70,7 +70,7 @@ class Scale:
         faint, median, bright = weighted_quantile(values, weights, [0.05, 0.5, 0.99])
         high = top if top <= 1.5 * bright or bright <= 0.0 else bright
         if kind == "log" or (kind == "auto" and high > 15.0 * median):
-            return cls.logarithmic(max(float(faint), high * 1e-4), float(high))
+            return cls.logarithmic(max(float(faint), high * 1e-3), float(high))
         if kind == "auto" and values.min() > 0.7 * high:
             margin = max(high - float(values.min()), 1e-3 * high)
             return cls.linear(max(float(values.min()) - 0.1 * margin, 0.0), high, 6)

@@ -3,7 +3,7 @@
 import os
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import mesh
@@ -54,11 +54,12 @@ class Scene:
         exitance = mesh.cell_array(self.surface, "EmittedExitance")
         return exitance is not None and bool((exitance > 0.0).any())
 
-    @property
-    def two_sided(self):
-        """Whether any surface counts on both sides (then its back must be drawn too)."""
-        flags = mesh.cell_array(self.surface, "TwoSided")
-        return flags is not None and bool((flags != 0.0).any())
+    def two_sided(self, surface, chosen):
+        """For each cell, whether it counts on both sides; `chosen`: the user's option, or None."""
+        flags = mesh.cell_array(surface, "TwoSided")
+        if flags is not None:
+            return flags[:, 0] != 0.0
+        return np.full(surface.GetNumberOfCells(), bool(chosen))
 
     def efficacy(self):
         """lm/W by which the reader turned photometric values into radiometric ones."""
@@ -116,6 +117,13 @@ def _check(path, surface, lights):
                          "emissive material in the scene")
 
 
+def _set_two_sided(surface, value):
+    """Replaces what the materials say about their sides."""
+    flags = numpy_to_vtk(np.full(surface.GetNumberOfCells(), int(value), np.uint8), deep=True)
+    flags.SetName("TwoSided")
+    surface.GetCellData().AddArray(flags)
+
+
 def _camera(reader, bounds, aspect):
     if reader.GetNumberOfCameras() == 0:
         return Camera.three_quarter(bounds, aspect=aspect)
@@ -159,6 +167,11 @@ def read(path, options, progress):
     names = lights.GetFieldData().GetAbstractArray("LightNames")
     names = [names.GetValue(k) for k in range(names.GetNumberOfValues())] if names else []
     camera = _camera(reader, surface.GetBounds(), options.size[0] / options.size[1])
+    if options.two_sided is not None:
+        _set_two_sided(surface, options.two_sided)
+        assumptions.append("Sides: every surface counts on "
+                           + ("both sides" if options.two_sided else "its front only")
+                           + ", as the command line says.")
     scene = Scene(path, surface, lights, camera, assumptions, names)
     with progress.stage("Refining"):
         scene.refine(options.max_edge)
