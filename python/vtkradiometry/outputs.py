@@ -7,13 +7,12 @@ import numpy as np
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from . import falsecolor, mesh, picture, plots, quantities, report
+from . import falsecolor, mesh, picture, plots, quantities, report, view_mesh
 from .compute import field_facts
 from .faults import Listener
 from .image_file import write_exr
 from .scales import Scale, format_number
 from .versions import versions
-from .view_mesh import ViewMesh
 from .vtkRadiometryFilters import vtkIrradianceFilter
 
 RESULTS = ("Irradiance", "IrradianceError", "Radiosity", "RadiosityError", "DirectIrradiance",
@@ -89,9 +88,12 @@ class View:
 
     def __init__(self, scene, surface, options, progress):
         self.smooth = mesh.SmoothSurface(surface)
-        two_sided = scene.two_sided(surface, options.two_sided)
-        self.mesh = ViewMesh(surface, self.smooth, scene.camera, options.size, two_sided)
-        back = self.mesh.back
+        drawn, back = view_mesh.sides(surface, scene.camera,
+                                      scene.two_sided(surface, options.two_sided))
+        seen = picture.seen_cells(view_mesh.coarse_polydata(surface, drawn), scene.camera,
+                                  options.size)
+        self.mesh = view_mesh.ViewMesh(surface, self.smooth, scene.camera, options.size, drawn,
+                                       back, seen)
         direct = _seen(surface, "DirectIrradiance", back)
         irradiance = _seen(surface, "Irradiance", back)
         self.irradiance = self._direct(scene, surface, options, progress)

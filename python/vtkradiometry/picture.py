@@ -86,6 +86,17 @@ class Picture:
         return image
 
 
+def seen_cells(surface, camera, size):
+    """The numbers (TriangleNumber - 1) of the cells that show at a pixel's centre."""
+    drawing = Drawing(surface, camera)
+    try:
+        number = drawing.draw("TriangleNumber", 1, *size, 1)[:, :, 0]
+    finally:
+        drawing.close()
+    found = np.unique(np.rint(number).astype(np.int64)) - 1
+    return found[found >= 0]
+
+
 def render(view, radiance, camera, size):
     """Draws the radiance (at the points of the view mesh), and finds the computed cell, depth and
     normal of each pixel."""

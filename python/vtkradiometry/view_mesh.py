@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from . import mesh
 
-PIXELS = 4.0  # length of the shortest edges that are still divided, in pixels
+PIXELS = 3.0  # length of the shortest edges that are still divided, in pixels
 LARGEST = 350000  # triangles
 INHERITED = ("Transmittance",)
 
@@ -79,7 +79,11 @@ def divide(corners, wanted, largest, rounds=14):
 
 
 def _edge_test(camera, size, pixels):
-    """Which edges look longer than `pixels` in a picture of this size (width, height)."""
+    """Which edges look longer than `pixels` in a picture of this size (width, height).
+
+    Column 6 of the corners is 1 at corners of cells that are seen: an edge is divided only if it is
+    1 at both ends, which holds on all edges of such cells and on few others.
+    """
     right, above, forward = camera.axes()
     width, height = size
     half_height = camera.half_height(width / height)
@@ -91,6 +95,7 @@ def _edge_test(camera, size, pixels):
         return offset @ right, offset @ above, offset @ forward
 
     def wanted(a, b):
+        seen = np.minimum(a[:, 6], b[:, 6]) == 1.0
         length = np.linalg.norm(a[:, :3] - b[:, :3], axis=1)
         x, y, z = look(0.5 * (a + b))
         reach = 0.5 * length
@@ -103,7 +108,7 @@ def _edge_test(camera, size, pixels):
         edge = np.maximum(near, 0.0) if not camera.parallel_height else 1.0
         inside = ((near > 0.0) & (np.abs(x) - reach * 1.5 < half_width * edge)
                   & (np.abs(y) - reach * 1.5 < half_height * edge))
-        return inside & (length > pixels * pixel * scale)
+        return seen & inside & (length > pixels * pixel * scale)
 
     return wanted
 
@@ -122,32 +127,47 @@ def _smooth_faces(smooth):
         label = new
 
 
+def sides(surface, camera, two_sided):
+    """For each cell, whether it is drawn, and whether the picture shows its back."""
+    cross = mesh.cross_products(surface)
+    corner = mesh.points(surface)[mesh.triangles(surface)]
+    toward = (-np.broadcast_to(camera.axes()[2], cross.shape) if camera.parallel_height
+              else camera.position - corner.mean(axis=1))
+    facing = np.einsum("ij,ij->i", cross, toward) > 0.0
+    return facing | two_sided, two_sided & ~facing
+
+
+def coarse_polydata(surface, drawn):
+    """The drawn cells as they are, with the cell array TriangleNumber (from 1)."""
+    return _numbered(mesh.points(surface), mesh.triangles(surface), drawn)
+
+
 class ViewMesh:
     """The fine mesh, its origin in the computed cells, and which of it the camera may see.
 
-    back: for each computed cell, whether the picture shows its back (two-sided cells that turn
-    away from the camera). One-sided cells that turn away are not drawn.
+    drawn, back: what `sides` says; seen: numbers of the computed cells that show in the picture.
+    One-sided cells that turn away from the camera are not drawn.
     """
 
-    def __init__(self, surface, smooth, camera, size, two_sided):
+    def __init__(self, surface, smooth, camera, size, drawn, back, seen):
         self.smooth = smooth
-        cross = mesh.cross_products(surface)
+        self.back = back
         corner = mesh.points(surface)[mesh.triangles(surface)]
-        toward = (-np.broadcast_to(camera.axes()[2], cross.shape) if camera.parallel_height
-                  else camera.position - corner.mean(axis=1))
-        facing = np.einsum("ij,ij->i", cross, toward) > 0.0
-        self.back = two_sided & ~facing
-        drawn = facing | two_sided
         weights = np.broadcast_to(np.eye(3), corner.shape)
+        place = np.unique(_row_keys(*corner.reshape(-1, 3).T), return_inverse=True)[1]
+        place = place.reshape(-1, 3)
+        at_place = np.zeros(place.max() + 1)
+        at_place[place[seen]] = 1.0
+        start = np.concatenate([corner, weights, at_place[place][:, :, None]], axis=2)
         pixels = PIXELS
         while True:
-            divided = divide(np.concatenate([corner, weights], axis=2),
-                             _edge_test(camera, size, pixels), max(LARGEST, 3 * len(corner)))
+            divided = divide(start, _edge_test(camera, size, pixels),
+                             max(LARGEST, 3 * len(corner)))
             if divided is not None:
                 break
             pixels *= 1.3
         fine, origin = divided
-        self.weights = fine[:, :, 3:]
+        self.weights = fine[:, :, 3:6].copy()
         self.origin = origin
         self.drawn = drawn[origin]
         face = _smooth_faces(smooth)[origin] * 2 + self.back[origin]
@@ -202,7 +222,7 @@ class ViewMesh:
     def polydata(self, point_arrays):
         """What is drawn, with these point arrays {name: values}, normals, and the cell array
         TriangleNumber (from 1)."""
-        fine = _polydata(self.xyz, self.corner[self.drawn])
+        fine = _numbered(self.xyz, self.corner, self.drawn)
         normals = numpy_to_vtk(self.normal.astype(np.float32), deep=True)
         normals.SetName("Normals")
         fine.GetPointData().SetNormals(normals)
@@ -210,10 +230,15 @@ class ViewMesh:
             array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
             array.SetName(name)
             fine.GetPointData().AddArray(array)
-        number = numpy_to_vtk((np.flatnonzero(self.drawn) + 1).astype(np.float32), deep=True)
-        number.SetName("TriangleNumber")
-        fine.GetCellData().AddArray(number)
         return fine
+
+
+def _numbered(xyz, triangles, drawn):
+    surface = _polydata(xyz, triangles[drawn])
+    number = numpy_to_vtk((np.flatnonzero(drawn) + 1).astype(np.float32), deep=True)
+    number.SetName("TriangleNumber")
+    surface.GetCellData().AddArray(number)
+    return surface
 
 
 def _polydata(xyz, triangles):
