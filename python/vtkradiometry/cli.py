@@ -2,9 +2,6 @@
 """From a scene on disk to a measured and shown one: what ./run SCENE does."""
 import os
 import sys
-import time
-
-import numpy as np
 
 from . import display, options as command_line
 from .files import OutputFolder
@@ -33,7 +30,7 @@ def main(arguments=None):
 
     try:
         with progress:
-            published = _run(options, progress)
+            summary, published = _run(options, progress)
     except InputFault as fault:
         _say(f"run: {fault}")
         return BAD_INPUT
@@ -44,11 +41,20 @@ def main(arguments=None):
         what = f"{error.filename}: {error.strerror}" if getattr(error, "strerror", None) else error
         _say(f"run: {what}")
         return BAD_INPUT if isinstance(error, (NotADirectoryError, PermissionError)) else 1
+    try:
+        _announce(summary, published)
+    except BrokenPipeError:  # whoever read it had enough; the files are there
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 0
+
+
+def _announce(summary, published):
+    print(summary)
     print()
     width = max(len(os.path.relpath(path)) for path, _ in published)
     for path, description in published:
         print(f"{os.path.relpath(path).ljust(width)}  {description}")
-    return 0
+    sys.stdout.flush()
 
 
 def _run(options, progress):
@@ -56,7 +62,6 @@ def _run(options, progress):
     from .compute import run
     from .vtkRadiometryFilters import vtkIrradianceFilter
 
-    begin = time.monotonic()
     path = scenes.find(options.scene)
     scene = scenes.read(path, options, progress)
     results = [run(vtkIrradianceFilter(), "Irradiance", scene.surface, scene.lights, options,
@@ -74,7 +79,4 @@ def _run(options, progress):
         summary = write_all(output, scene, results, options, progress)
         progress.check()
         published = output.publish()
-    progress.seconds["Whole run"] = time.monotonic() - begin
-    progress.__exit__()
-    print(summary)
-    return published
+    return summary, published

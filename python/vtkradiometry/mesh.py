@@ -10,6 +10,7 @@ from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkFiltersModeling import vtkAdaptiveSubdivisionFilter
 
 AUTOMATIC_TRIANGLES = 6000  # what --max-edge auto aims at
+LARGEST = 3000000  # triangles that refining may make
 MATERIAL = ("DiffuseReflectance", "SpecularReflectance", "Shininess", "EmittedExitance",
             "Transmittance", "TwoSided", "BackDiffuseReflectance")
 
@@ -74,6 +75,10 @@ def refine(surface, max_edge):
         max_edge = automatic_edge(surface)
     if not max_edge:
         return surface, 0.0
+    expected = float(areas(surface).sum()) / (0.21 * max_edge * max_edge)
+    if expected > LARGEST:
+        raise ValueError(f"a longest edge of {max_edge:g} m would make about {expected:.2g} "
+                         f"triangles; at most {LARGEST} are made")
     divide = vtkAdaptiveSubdivisionFilter()
     divide.SetInputData(surface)
     divide.SetMaximumEdgeLength(max_edge)

@@ -90,10 +90,10 @@ class View:
         self.smooth = mesh.SmoothSurface(surface)
         drawn, back = view_mesh.sides(surface, scene.camera,
                                       scene.two_sided(surface, options.two_sided))
-        seen = picture.seen_cells(view_mesh.coarse_polydata(surface, drawn), scene.camera,
-                                  options.size)
-        self.mesh = view_mesh.ViewMesh(surface, self.smooth, scene.camera, options.size, drawn,
-                                       back, seen)
+        # falsecolor.png is narrower, so it shows more above and below.
+        size = options.size[0], round(options.size[1] / (1.0 - falsecolor.LEGEND_SHARE))
+        seen = picture.seen_cells(view_mesh.coarse_polydata(surface, drawn), scene.camera, size)
+        self.mesh = view_mesh.ViewMesh(surface, self.smooth, scene.camera, size, drawn, back, seen)
         direct = _seen(surface, "DirectIrradiance", back)
         irradiance = _seen(surface, "Irradiance", back)
         self.irradiance = self._direct(scene, surface, options, progress)
@@ -198,9 +198,11 @@ def write_all(output, scene, results, options, progress):
         plots.write_csv(output.path("convergence.csv", "the same as a table"), tables)
     with progress.stage("Statistics"), Listener() as listener:
         statistics = {}
-        for name in ("Irradiance", "Radiosity"):
+        for name in ("Irradiance", "IrradianceBack", "Radiosity", "RadiosityBack"):
             if quantities.per_cell(surface, name) is not None:
-                statistics[name] = quantities.statistics_rows(surface, name, listener)
+                rows = quantities.statistics_rows(surface, name, scene.efficacy(), listener)
+                statistics[name] = [row for row in rows
+                                    if row["Maximum"] > 0.0 or not name.endswith("Back")]
         flux = quantities.flux_rows(surface, areas, scene.efficacy())
     sentence = (
         f"Mean illuminance {format_number(summary['mean']['illuminance'])} lx "

@@ -72,15 +72,52 @@ def flux_rows(surface, areas, efficacy):
     return rows
 
 
-def statistics_rows(surface, name, listener):
-    """vtkRadiometricStatistics of one array as dictionaries."""
-    statistics = vtkRadiometricStatistics()
-    listener.observe(statistics)
-    statistics.SetInputDataObject(surface)
-    statistics.SetArrayName(name)
-    statistics.Update()
-    names, rows = rows_of(statistics.GetOutputDataObject(0))
-    return [dict(zip(names, row)) for row in rows]
+PHOTOMETRIC = {"Irradiance": ("lx", "lm"), "IrradianceBack": ("lx", "lm"),
+               "Radiosity": ("lm/m^2", "lm"), "RadiosityBack": ("lm/m^2", "lm")}
+LARGEST_GROUPS = 40
+
+
+def statistics_rows(surface, name, efficacy, listener):
+    """vtkRadiometricStatistics of one array as dictionaries: the whole surface in photometric and
+    radiometric units, then each object of the file in photometric units."""
+    rows = []
+    groups = surface.GetCellData().GetArray("ObjectIndex")
+    for group in (None, "ObjectIndex" if groups else None):
+        if group is None and rows:
+            continue
+        statistics = vtkRadiometricStatistics()
+        listener.observe(statistics)
+        statistics.SetInputDataObject(surface)
+        statistics.SetArrayName(name)
+        statistics.SetGroupArray(group)
+        statistics.Update()
+        names, found = rows_of(statistics.GetOutputDataObject(0))
+        found = [dict(zip(names, row)) for row in found]
+        whole = [row for row in found if row["Group"] == -1]
+        single = max(row["Component"] for row in whole) == 0
+        if group is None:
+            rows += [_row("all", row, name, efficacy) for row in whole
+                     if row["Component"] == -1 or single]
+            rows += [_row("all", row, name, None, "" if single else "RGB"[row["Component"]])
+                     for row in whole if row["Component"] >= 0 and (single or len(whole) == 4)]
+        else:
+            parts = [row for row in found if row["Group"] >= 0
+                     and (row["Component"] == -1 or single)]
+            if 1 < len(parts) <= LARGEST_GROUPS:
+                rows += [_row(row.get("GroupName") or str(row["Group"]), row, name, efficacy)
+                         for row in parts]
+    return rows
+
+
+def _row(part, row, name, efficacy, band=""):
+    """One line of the report: with an efficacy in photometric units, else as computed."""
+    unit, flux_unit = PHOTOMETRIC[name] if efficacy else ("W/m^2", "W")
+    factor = efficacy or 1.0
+    return {"Part": part, "Unit": unit + (f" {band}" if band else ""),
+            "Minimum": row["Minimum"] * factor, "Mean": row["Mean"] * factor,
+            "Maximum": row["Maximum"] * factor, "U0": row["U0"], "Ud": row["Ud"],
+            "Flux": row["Flux"] * factor, "Flux unit": flux_unit, "Area in m^2": row["Area"],
+            "Cells": row["Cells"]}
 
 
 def format_percent(fraction):

@@ -42,6 +42,7 @@ def table(rows, columns=None):
     if not rows:
         return []
     columns = columns or list(dict.fromkeys(key for row in rows for key in row))
+    columns = [c for c in columns if any(row.get(c) not in (None, "") for row in rows)]
     cells = [[_cell(row.get(column, "")) for column in columns] for row in rows]
     widths = [max(len(line[k]) for line in cells + [columns]) for k in range(len(columns) - 1)]
     indent = sum(widths) + 2 * len(widths)

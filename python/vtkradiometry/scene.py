@@ -174,5 +174,8 @@ def read(path, options, progress):
                            + ", as the command line says.")
     scene = Scene(path, surface, lights, camera, assumptions, names)
     with progress.stage("Refining"):
-        scene.refine(options.max_edge)
+        try:
+            scene.refine(options.max_edge)
+        except ValueError as error:
+            raise InputFault(f"--max-edge: {error}") from None
     return scene

@@ -116,7 +116,7 @@ def check_csv(path):
     require({row["Computation"] for row in rows} == {"Irradiance", "Radiosity"}, rows)
     for row in rows:
         require(float(row["Seconds"]) >= 0.0, row)
-        require(math.isfinite(float(row["RelativeError"])), row)
+        require(math.isfinite(float(row["EstimatedError"])), row)
 
 
 with tempfile.TemporaryDirectory() as where:
