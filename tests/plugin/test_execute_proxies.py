@@ -48,9 +48,12 @@ def input_type(prop):
     return types[0] if types else "vtkPolyData"
 
 
-def provide(prop, scene):
-    """A producer that suits this input property, or None to leave it empty."""
+def provide(prop, scene, owner=None):
+    """A producer that suits this input property of class `owner`, or None to leave it empty."""
     name, kind = prop.get("name"), input_type(prop)
+    if owner == "vtkRadiometricStatistics":  # wants results
+        return simple.Irradiance(
+            Input=scene, Lights=simple.PointLight(Position=[0.1, 0.2, 1.5], Intensity=10.0))
     if name == "Lights":
         return simple.PointLight(Position=[0.1, 0.2, 1.5], Intensity=10.0)
     if prop.find("Hints/Optional") is not None and name != "Input":
@@ -111,7 +114,7 @@ with tempfile.TemporaryDirectory() as folder:
             elif proxy.GetProperty("FileName") is not None:
                 proxy.FileName = gltf
             for prop in input_properties(element, known):
-                producer = provide(prop, plane)
+                producer = provide(prop, plane, element.get("class"))
                 if producer is not None:
                     setattr(proxy, prop.get("name"), producer)
             proxy.UpdatePipeline()
