@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkFiltersModeling import vtkAdaptiveSubdivisionFilter
 
-AUTOMATIC_TRIANGLES = 6000  # what --max-edge auto aims at
+AUTOMATIC_TRIANGLES = 2500  # what --max-edge auto aims at
 LARGEST = 3000000  # triangles that refining may make
 MATERIAL = ("DiffuseReflectance", "SpecularReflectance", "Shininess", "EmittedExitance",
             "Transmittance", "TwoSided", "BackDiffuseReflectance")

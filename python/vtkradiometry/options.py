@@ -61,14 +61,14 @@ def make_parser(program="./run"):
     parser.add_argument("--version", action="store_true", help="print the versions and stop")
 
     accuracy = parser.add_argument_group("how accurate, how long")
-    accuracy.add_argument("--tolerance", type=_positive, default=0.01, metavar="X",
-                          help="relative error to reach, 0.01 is one per cent (default: 0.01)")
+    accuracy.add_argument("--tolerance", type=_positive, default=0.02, metavar="X",
+                          help="relative error to reach, 0.01 is one per cent (default: 0.02)")
     accuracy.add_argument("--time-budget", type=_not_negative, default=0.0, metavar="SECONDS",
                           help="stop each computation after this time and say how far it got "
                           "(default: 0, no limit)")
     accuracy.add_argument("--max-edge", type=_edge, default="auto", metavar="METRES",
                           help="split triangles until no edge is longer; 0 keeps the mesh as it is "
-                          "(default: auto, about 6000 triangles)")
+                          "(default: auto, about 2500 triangles)")
     accuracy.add_argument("--threads", type=_count, default=0, metavar="N",
                           help="processor threads (default: 0, all)")
 
