@@ -64,7 +64,9 @@ def write_png(path, tables, tolerance, title, size=(1280, 720)):
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(figsize=(size[0] / 128.0, size[1] / 128.0), dpi=128)
+    # 10 inches wide at any number of pixels, so that the text keeps its share of the picture.
+    figure, axes = pyplot.subplots(figsize=(10.0, max(10.0 * size[1] / size[0], 4.0)),
+                                   dpi=size[0] / 10.0)
     drawn = 0
     for (computation, table), mark in zip(tables, "os^D"):
         seconds, error = curve(table)
