@@ -7,7 +7,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
-from vtkmodules.vtkFiltersModeling import vtkAdaptiveSubdivisionFilter
+
+from .subdivide import divide, row_keys
 
 AUTOMATIC_TRIANGLES = 2500  # what --max-edge auto aims at
 LARGEST = 3000000  # triangles that refining may make
@@ -67,8 +68,8 @@ def automatic_edge(surface, wanted=AUTOMATIC_TRIANGLES):
 def refine(surface, max_edge):
     """`surface` with no edge longer than `max_edge` (auto: from its size; 0: as it is).
 
-    Neighbours are split alike, so there are no gaps; cell arrays are inherited. Returns the surface
-    and the edge length that was used (0 if none).
+    Neighbours are split alike, so there are no gaps; cell arrays are inherited, point arrays
+    interpolated. Returns the surface and the edge length that was used (0 if none).
     """
     surface = triangulate(surface)
     if max_edge == "auto":
@@ -79,12 +80,64 @@ def refine(surface, max_edge):
     if expected > LARGEST:
         raise ValueError(f"a longest edge of {max_edge:g} m would make about {expected:.2g} "
                          f"triangles; at most {LARGEST} are made")
-    divide = vtkAdaptiveSubdivisionFilter()
-    divide.SetInputData(surface)
-    divide.SetMaximumEdgeLength(max_edge)
-    divide.SetMaximumTriangleArea(1.0e300)
-    divide.Update()
-    return divide.GetOutput(), max_edge
+    names, columns = _point_columns(surface)
+    divided = divide(columns[triangles(surface)],
+                     lambda a, b: np.linalg.norm(a[:, :3] - b[:, :3], axis=1) > max_edge,
+                     largest=8 * LARGEST, rounds=40)
+    if divided is None:
+        raise ValueError(f"a longest edge of {max_edge:g} m would make too many triangles")
+    corners, origin = divided
+    flat = corners.reshape(-1, corners.shape[2])
+    _, chosen, index = np.unique(row_keys(*flat.T), return_index=True, return_inverse=True)
+    kept = flat[chosen]
+    fine = make_polydata(kept[:, :3], index.reshape(-1, 3))
+    first = 3
+    for name, width in names:
+        values = kept[:, first:first + width]
+        first += width
+        if name == "Normals":
+            length = np.linalg.norm(values, axis=1, keepdims=True)
+            values = values / np.maximum(length, np.finfo(float).tiny)
+        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+        array.SetName(name)
+        fine.GetPointData().AddArray(array)
+    if any(name == "Normals" for name, _ in names):
+        fine.GetPointData().SetActiveNormals("Normals")
+    data = surface.GetCellData()
+    for k in range(data.GetNumberOfArrays()):
+        values = vtk_to_numpy(data.GetArray(k))[origin]
+        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+        array.SetName(data.GetArray(k).GetName())
+        fine.GetCellData().AddArray(array)
+    fine.SetFieldData(surface.GetFieldData())
+    return fine, max_edge
+
+
+def _point_columns(surface):
+    """Coordinates and all point arrays beside each other, in double."""
+    names, columns = [], [points(surface)]
+    data = surface.GetPointData()
+    for k in range(data.GetNumberOfArrays()):
+        values = vtk_to_numpy(data.GetArray(k)).astype(np.float64)
+        values = values.reshape(surface.GetNumberOfPoints(), -1)
+        names.append((data.GetArray(k).GetName(), values.shape[1]))
+        columns.append(values)
+    return names, np.hstack(columns)
+
+
+def make_polydata(xyz, corner):
+    """A vtkPolyData of triangles: points (P, 3), point numbers (T, 3)."""
+    surface = vtkPolyData()
+    location = vtkPoints()
+    location.SetDataTypeToDouble()
+    location.SetData(numpy_to_vtk(np.ascontiguousarray(xyz), deep=True))
+    surface.SetPoints(location)
+    cells = vtkCellArray()
+    offsets = np.arange(0, corner.size + 1, 3, dtype=np.int64)
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(
+        np.ascontiguousarray(corner.reshape(-1), dtype=np.int64), deep=True))
+    surface.SetPolys(cells)
+    return surface
 
 
 def _unique_rows(rows):
@@ -173,16 +226,7 @@ class SmoothSurface:
 
     def polydata(self, point_arrays, cell_arrays=None):
         """A vtkPolyData with these arrays {name: values} and point normals."""
-        surface = vtkPolyData()
-        location = vtkPoints()
-        location.SetDataTypeToDouble()
-        location.SetData(numpy_to_vtk(self.xyz, deep=True))
-        surface.SetPoints(location)
-        cells = vtkCellArray()
-        offsets = np.arange(0, 3 * len(self.corner) + 1, 3, dtype=np.int64)
-        cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True),
-                      numpy_to_vtkIdTypeArray(self.corner.reshape(-1).astype(np.int64), deep=True))
-        surface.SetPolys(cells)
+        surface = make_polydata(self.xyz, self.corner)
         normals = numpy_to_vtk(self.normal.astype(np.float32), deep=True)
         normals.SetName("Normals")
         surface.GetPointData().SetNormals(normals)

@@ -5,77 +5,14 @@ Light that comes straight from the lamps has sharp shadows; it is computed anew 
 same filter. Light from other surfaces varies slowly; it is interpolated from the computed cells.
 """
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.util.numpy_support import numpy_to_vtk
 
 from . import mesh
+from .subdivide import divide, row_keys
 
 PIXELS = 3.0  # length of the shortest edges that are still divided, in pixels
 LARGEST = 350000  # triangles
 INHERITED = ("Transmittance",)
-
-
-def _row_keys(*columns):
-    """A 64-bit number for each row of these columns: the same for rows with the same bits."""
-    keys = np.full(len(columns[0]), 0x9E3779B97F4A7C15, dtype=np.uint64)
-    multiplier = np.uint64(0xBF58476D1CE4E5B9)
-    for column in columns:
-        bits = np.ascontiguousarray(column + 0.0 if column.dtype.kind == "f" else column)
-        keys ^= bits.astype(np.float64 if bits.dtype.kind == "f" else np.int64).view(np.uint64)
-        keys *= multiplier
-        keys ^= keys >> np.uint64(29)
-    return keys
-
-
-def divide(corners, wanted, largest, rounds=14):
-    """Splits triangles at the middles of edges until no edge is to be divided.
-
-    corners: (T, 3, k), the first three columns positions; everything is interpolated linearly.
-    wanted(a, b): whether the edges from a to b are divided; it must be symmetric, so that
-    neighbours agree and no gaps appear. Returns the corners and the index of each triangle's
-    origin, or None where more than `largest` triangles would come of it.
-    """
-    origin = np.arange(len(corners))
-    done_corners, done_origin, done = [], [], 0
-    for _ in range(rounds):
-        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-        marks = np.stack([wanted(a, b), wanted(b, c), wanted(c, a)], axis=1)
-        number = marks.sum(axis=1)
-        still = number == 0
-        done_corners.append(corners[still])
-        done_origin.append(origin[still])
-        done += int(still.sum())
-        if still.all():
-            break
-        if done + 2 * int((~still).sum()) > largest:
-            return None
-        pieces, sources = [], []
-
-        def add(chosen, *triangles):
-            for triangle in triangles:
-                pieces.append(np.stack(triangle, axis=1))
-                sources.append(origin[chosen])
-
-        for first in range(3):  # one marked edge, from `first` to the next corner
-            chosen = np.flatnonzero((number == 1) & marks[:, first])
-            p, q, r = (corners[chosen, (first + k) % 3] for k in range(3))
-            middle = 0.5 * (p + q)
-            add(chosen, (p, middle, r), (middle, q, r))
-            # two marked edges, the unmarked one ends at `first`
-            chosen = np.flatnonzero((number == 2) & ~marks[:, (first + 2) % 3])
-            p, q, r = (corners[chosen, (first + k) % 3] for k in range(3))
-            pq, qr = 0.5 * (p + q), 0.5 * (q + r)
-            add(chosen, (pq, q, qr), (p, pq, qr), (p, qr, r))
-        chosen = np.flatnonzero(number == 3)
-        p, q, r = (corners[chosen, k] for k in range(3))
-        pq, qr, rp = 0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)
-        add(chosen, (p, pq, rp), (pq, q, qr), (rp, qr, r), (pq, qr, rp))
-        corners, origin = np.concatenate(pieces), np.concatenate(sources)
-    else:
-        done_corners.append(corners)
-        done_origin.append(origin)
-    return np.concatenate(done_corners), np.concatenate(done_origin)
 
 
 def _edge_test(camera, size, pixels):
@@ -154,7 +91,7 @@ class ViewMesh:
         self.back = back
         corner = mesh.points(surface)[mesh.triangles(surface)]
         weights = np.broadcast_to(np.eye(3), corner.shape)
-        place = np.unique(_row_keys(*corner.reshape(-1, 3).T), return_inverse=True)[1]
+        place = np.unique(row_keys(*corner.reshape(-1, 3).T), return_inverse=True)[1]
         place = place.reshape(-1, 3)
         at_place = np.zeros(place.max() + 1)
         at_place[place[seen]] = 1.0
@@ -172,7 +109,7 @@ class ViewMesh:
         self.drawn = drawn[origin]
         face = _smooth_faces(smooth)[origin] * 2 + self.back[origin]
         flat = fine[:, :, :3].reshape(-1, 3)
-        keys = _row_keys(*flat.T)
+        keys = row_keys(*flat.T)
         _, chosen, index = np.unique(keys, return_index=True, return_inverse=True)
         self.place = flat[chosen]
         self.index = index.reshape(-1, 3)
@@ -180,7 +117,7 @@ class ViewMesh:
         self.index[flip] = self.index[flip][:, ::-1]
         self.weights[flip] = self.weights[flip][:, ::-1]
         # Points for interpolation: one for each place and smooth face.
-        joint = _row_keys(self.index.reshape(-1), np.repeat(face, 3))
+        joint = row_keys(self.index.reshape(-1), np.repeat(face, 3))
         _, chosen, corner = np.unique(joint, return_index=True, return_inverse=True)
         self.corner = corner.reshape(-1, 3)
         self.xyz = self.place[self.index.reshape(-1)[chosen]]
@@ -210,7 +147,7 @@ class ViewMesh:
 
     def receiver(self, surface):
         """The whole fine mesh as a surface to compute on: fronts are the sides that are seen."""
-        fine = _polydata(self.place, self.index)
+        fine = mesh.make_polydata(self.place, self.index)
         for name in INHERITED:
             values = mesh.cell_array(surface, name)
             if values is not None:
@@ -234,23 +171,8 @@ class ViewMesh:
 
 
 def _numbered(xyz, triangles, drawn):
-    surface = _polydata(xyz, triangles[drawn])
+    surface = mesh.make_polydata(xyz, triangles[drawn])
     number = numpy_to_vtk((np.flatnonzero(drawn) + 1).astype(np.float32), deep=True)
     number.SetName("TriangleNumber")
     surface.GetCellData().AddArray(number)
-    return surface
-
-
-def _polydata(xyz, triangles):
-    surface = vtkPolyData()
-    location = vtkPoints()
-    location.SetDataTypeToDouble()
-    location.SetData(numpy_to_vtk(np.ascontiguousarray(xyz), deep=True))
-    surface.SetPoints(location)
-    cells = vtkCellArray()
-    cells.SetData(
-        numpy_to_vtkIdTypeArray(np.arange(0, triangles.size + 1, 3, dtype=np.int64), deep=True),
-        numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles.reshape(-1), dtype=np.int64),
-                                deep=True))
-    surface.SetPolys(cells)
     return surface
