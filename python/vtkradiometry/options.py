@@ -105,9 +105,11 @@ def make_parser(program="./run"):
                          help="scale the picture by 2 to this power (default: from the scene's "
                          "brightness)")
     picture.add_argument("--display", metavar="NAME", default=None,
-                         help="OpenColorIO display, for example sRGB or P3-D65")
+                         help="OpenColorIO display: sRGB, Rec.1886, Display P3, or one of your $OCIO "
+                         "config (default: the config's first)")
     picture.add_argument("--view", metavar="NAME", default=None,
-                         help="OpenColorIO view of that display, for example plain or ACES")
+                         help="view of that display: Plain, ACES, Raw, or one of your config "
+                         "(default: the display's first)")
     picture.add_argument("--quantity", choices=["auto", "irradiance", "illuminance"],
                          default="auto", help="what falsecolor.png shows: irradiance in W/m2 or "
                          "illuminance in lx (default: auto, illuminance for a coloured scene)")

@@ -184,4 +184,5 @@ def write_png(path, rgb, exposure, display, view):
     writer.SetFileName(path)
     writer.SetInputData(to_image(shown.reshape(rgb.shape[0], rgb.shape[1], -1)[:, :, :3]))
     writer.Write()
-    return {"display": display or "default", "view": view or "default"}
+    return {"display": transform.GetUsedDisplay(), "view": transform.GetUsedView(),
+            "OpenColorIO config": transform.GetUsedConfig()}

@@ -68,16 +68,19 @@ def write_png(path, tables, tolerance, title, size=(1280, 720)):
     figure, axes = pyplot.subplots(figsize=(10.0, max(10.0 * size[1] / size[0], 4.0)),
                                    dpi=size[0] / 10.0)
     drawn = 0
+    floor = 1e-3 * tolerance  # nobody asks for less: smaller errors are drawn on the lower edge
     for (computation, table), mark in zip(tables, "os^D"):
         seconds, error = curve(table)
         if len(seconds):
-            axes.plot(seconds, 100.0 * error, marker=mark, label=f"{computation}, estimated")
+            axes.plot(seconds, 100.0 * np.maximum(error, floor), marker=mark, clip_on=False,
+                      label=f"{computation}, estimated")
             drawn += 1
     axes.axhline(100.0 * tolerance, color="0.35", linestyle="--", linewidth=1.2,
                  label=f"requested: {100.0 * tolerance:g} %")
     axes.set_yscale("log")
     if drawn:
         axes.set_xscale("log")
+        axes.set_ylim(bottom=100.0 * floor)
     else:
         axes.text(0.5, 0.6, "every value is exact to rounding: no error to show",
                   transform=axes.transAxes, horizontalalignment="center")
