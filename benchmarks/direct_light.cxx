@@ -11,6 +11,7 @@
 
 #include "radiometry/irradiance/DirectIrradiance.h"
 #include "radiometry/irradiance/IrradianceSimulation.h"
+#include "radiometry/visibility/ShadowLines.h"
 #include "tests/core/TestScenes.h"
 
 #include <nlohmann/json.hpp>
@@ -146,6 +147,9 @@ int main(int argc, char** argv)
   const BareLoop bare(scene, light.Position);
   const OcclusionScene occluders(scene);
   const std::vector<Patch> patches = MakePatches(scene, 0);
+  const auto built = std::chrono::steady_clock::now();
+  occluders.Lines(scene, 0);
+  const double linesSeconds = Seconds(built);
   double bareSeconds = 1e300;
   double runSeconds = 1e300;
   DirectResult result;
@@ -170,6 +174,7 @@ int main(int argc, char** argv)
   out["triangles"] = scene.Triangles.size();
   out["seconds"] = runSeconds;
   out["bareSeconds"] = bareSeconds;
+  out["shadowLinesSeconds"] = linesSeconds; // once a geometry, as Embree's own hierarchy
   out["ratio"] = runSeconds / bareSeconds;
   out["rays"] = result.Rays;
   out["raysPerSecond"] = static_cast<double>(result.Rays) / runSeconds;

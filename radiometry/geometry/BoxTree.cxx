@@ -3,9 +3,38 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tbb/parallel_invoke.h>
+#include <utility>
 
 namespace radiometry
 {
+namespace
+{
+
+constexpr std::int32_t LeafSize = 4;
+/// Smaller parts are not worth a task.
+constexpr std::int32_t TaskSize = 8192;
+
+/// The numbers of nodes of trees over n and n + 1 items.
+std::pair<std::size_t, std::size_t> NodeCounts(std::int32_t n)
+{
+  if (n < LeafSize)
+  {
+    return { 1, 1 };
+  }
+  const auto [half, more] = NodeCounts(n / 2);
+  const auto count = [&](std::int32_t m) -> std::size_t {
+    if (m <= LeafSize)
+    {
+      return 1;
+    }
+    const auto of = [&](std::int32_t part) { return part == n / 2 ? half : more; };
+    return 1 + of(m / 2) + of(m - m / 2);
+  };
+  return { count(n), count(n + 1) };
+}
+
+} // namespace
 
 BoxTree::BoxTree(const std::vector<Box3>& boxes)
 {
@@ -13,17 +42,17 @@ BoxTree::BoxTree(const std::vector<Box3>& boxes)
   {
     return;
   }
+  const auto count = static_cast<std::int32_t>(boxes.size());
   this->Items.resize(boxes.size());
   std::iota(this->Items.begin(), this->Items.end(), 0);
-  this->Nodes.reserve(boxes.size());
-  this->Build(boxes, 0, static_cast<std::int32_t>(boxes.size()));
+  this->Nodes.resize(NodeCounts(count).first);
+  this->Build(boxes, 0, count, 0);
 }
 
-void BoxTree::Build(const std::vector<Box3>& boxes, std::int32_t begin, std::int32_t end)
+/// Writes the tree over items [begin, end) from node `at` on: a node, its first half, its second.
+void BoxTree::Build(
+  const std::vector<Box3>& boxes, std::int32_t begin, std::int32_t end, std::size_t at)
 {
-  constexpr std::int32_t leafSize = 4;
-  const std::size_t at = this->Nodes.size();
-  this->Nodes.emplace_back();
   Box3 bounds;
   Box3 centers;
   for (std::int32_t i = begin; i < end; ++i)
@@ -32,7 +61,7 @@ void BoxTree::Build(const std::vector<Box3>& boxes, std::int32_t begin, std::int
     centers.Add(boxes[this->Items[i]].Center());
   }
   this->Nodes[at].Bounds = bounds;
-  if (end - begin <= leafSize)
+  if (end - begin <= LeafSize)
   {
     this->Nodes[at].First = begin;
     this->Nodes[at].Count = end - begin;
@@ -48,9 +77,19 @@ void BoxTree::Build(const std::vector<Box3>& boxes, std::int32_t begin, std::int
       const double cb = boxes[b].Min[axis] + boxes[b].Max[axis];
       return ca < cb || (ca == cb && a < b);
     });
-  this->Build(boxes, begin, middle);
-  this->Nodes[at].First = static_cast<std::int32_t>(this->Nodes.size());
-  this->Build(boxes, middle, end);
+  const std::size_t second = at + 1 + NodeCounts(middle - begin).first;
+  this->Nodes[at].First = static_cast<std::int32_t>(second);
+  const auto buildFirst = [&] { this->Build(boxes, begin, middle, at + 1); };
+  const auto buildSecond = [&] { this->Build(boxes, middle, end, second); };
+  if (end - begin > TaskSize)
+  {
+    tbb::parallel_invoke(buildFirst, buildSecond);
+  }
+  else
+  {
+    buildFirst();
+    buildSecond();
+  }
 }
 
 } // namespace radiometry

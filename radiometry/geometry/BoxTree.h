@@ -92,7 +92,7 @@ private:
     std::int32_t First = 0; // leaf: first item; inner: the second child (the first is the next node)
     std::int32_t Count = 0; // leaf: items; inner: 0
   };
-  void Build(const std::vector<Box3>& boxes, std::int32_t begin, std::int32_t end);
+  void Build(const std::vector<Box3>& boxes, std::int32_t begin, std::int32_t end, std::size_t at);
 
   std::vector<Node> Nodes;
   std::vector<std::int32_t> Items;

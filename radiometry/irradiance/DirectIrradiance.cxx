@@ -26,7 +26,7 @@ public:
   LightSet(const Scene& scene, const OcclusionScene& occluders, const DirectOptions& options)
   {
     const bool occlusion = options.Occlusion && !scene.Triangles.empty();
-    std::unique_ptr<MeshEdges> edges;
+    this->Lines = occlusion ? &occluders.Lines(scene, options.Threads) : nullptr;
     for (const Light& light : scene.Lights)
     {
       if (!light.Enabled || light.Type == LightType::Area || light.Type == LightType::Environment)
@@ -35,18 +35,15 @@ public:
       }
       this->Sources.push_back(
         std::make_unique<SourceFlux>(light, options.SpotShape, options.Attenuation));
-      if (occlusion && !edges)
-      {
-        edges = std::make_unique<MeshEdges>(scene);
-      }
       this->Outlines.push_back(
-        occlusion ? std::make_unique<Silhouettes>(scene, *edges, light) : nullptr);
+        occlusion ? std::make_unique<Silhouettes>(scene, *this->Lines, light) : nullptr);
       this->Cutters.push_back(std::make_unique<ShadowCutter>(
         *this->Sources.back(), this->Outlines.back().get(), occluders));
     }
   }
   std::size_t Size() const { return this->Sources.size(); }
 
+  const ShadowLines* Lines = nullptr; // null: nothing hides anything
   std::vector<std::unique_ptr<SourceFlux>> Sources;
   std::vector<std::unique_ptr<Silhouettes>> Outlines;
   std::vector<std::unique_ptr<ShadowCutter>> Cutters;
@@ -110,14 +107,6 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   }
 
   const ConvergenceRecord clock;
-  std::vector<std::vector<Segment3>> crossings(scene.ReceiverTriangles);
-  if (options.Occlusion)
-  {
-    StageProgress part = stage;
-    part.End = stage.Begin + 0.1 * (stage.End - stage.Begin);
-    crossings = FindIntersections(scene, options.Threads, part);
-  }
-
   std::vector<double> areas(patches.size());
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
@@ -200,10 +189,7 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
         magnitude;
       static const std::vector<Segment3> none;
       LitFlux flux = lights.Cutters[share.Light]->Flux(patch, normal, share.Flux,
-        patch.Triangle >= 0 && static_cast<std::size_t>(patch.Triangle) < crossings.size()
-          ? crossings[patch.Triangle]
-          : none,
-        allowed, work);
+        lights.Lines ? lights.Lines->Crossings(patch.Triangle) : none, allowed, work);
       flux.Error += share.Quadrature;
       rays += flux.Rays;
       lit += flux.Value * magnitude;

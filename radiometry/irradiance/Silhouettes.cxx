@@ -1,79 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/Silhouettes.h"
 
-#include "radiometry/scene/Parallel.h"
-
 #include <algorithm>
-#include <tuple>
 
 namespace radiometry
 {
-namespace
-{
-
-/// Greatest coordinate of the scene in its recentred frame.
-double Extent(const Scene& scene)
-{
-  double extent = 0.0;
-  for (const Vec3& p : scene.Points)
-  {
-    extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
-  }
-  return extent;
-}
-
-/// Rounding of coordinates that large, with a little room.
-constexpr double RoundingUnits = 2e-14;
-
-} // namespace
-
-MeshEdges::MeshEdges(const Scene& scene)
-{
-  struct Half
-  {
-    std::int32_t A, B, Opposite;
-  };
-  std::vector<Half> halves;
-  halves.reserve(3 * scene.Triangles.size());
-  for (const auto& t : scene.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const std::int32_t a = t[k];
-      const std::int32_t b = t[(k + 1) % 3];
-      halves.push_back({ std::min(a, b), std::max(a, b), t[(k + 2) % 3] });
-    }
-  }
-  std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
-    return std::tie(x.A, x.B, x.Opposite) < std::tie(y.A, y.B, y.Opposite);
-  });
-  // Duplicate triangles count once: their shadow is one.
-  halves.erase(std::unique(halves.begin(), halves.end(),
-                 [](const Half& x, const Half& y) {
-                   return x.A == y.A && x.B == y.B && x.Opposite == y.Opposite;
-                 }),
-    halves.end());
-  for (std::size_t i = 0; i < halves.size();)
-  {
-    std::size_t j = i + 1;
-    while (j < halves.size() && halves[j].A == halves[i].A && halves[j].B == halves[i].B)
-    {
-      ++j;
-    }
-    this->Edges.push_back({ halves[i].A, halves[i].B,
-      { halves[i].Opposite, j - i > 1 ? halves[i + 1].Opposite : -1 }, j - i <= 2 });
-    i = j;
-  }
-}
-
-Silhouettes::Silhouettes(const Scene& scene, const MeshEdges& edges, const Light& light)
+Silhouettes::Silhouettes(const Scene& scene, const ShadowLines& lines, const Light& light)
   : Directional(light.Type == LightType::Directional)
   , Position(light.Position)
   , Direction(light.Direction)
-  , Tolerance(RoundingUnits * Extent(scene))
+  , Tolerance(lines.Tolerance())
 {
   std::vector<Box3> boxes;
-  for (const MeshEdges::Edge& e : edges.Edges)
+  for (const ShadowLines::Edge& e : lines.Edges)
   {
     const Vec3& a = scene.Points[e.A];
     const Vec3& b = scene.Points[e.B];
@@ -200,80 +139,6 @@ void Silhouettes::Narrow(const Triangle3& triangle, const std::vector<Segment3>&
       found.push_back(s);
     }
   }
-}
-
-std::vector<std::vector<Segment3>> FindIntersections(
-  const Scene& scene, int threads, const StageProgress& stage)
-{
-  const std::size_t count = scene.Triangles.size();
-  std::vector<Box3> boxes(count);
-  for (std::size_t t = 0; t < count; ++t)
-  {
-    for (const Vec3& p : scene.TriangleAt(t))
-    {
-      boxes[t].Add(p);
-    }
-  }
-  const BoxTree tree(boxes);
-  const double tolerance = RoundingUnits * Extent(scene);
-
-  std::vector<std::vector<Segment3>> result(scene.ReceiverTriangles);
-  ParallelFor(
-    scene.ReceiverTriangles, threads, stage,
-    [&](std::size_t r) {
-      const Triangle3 receiver = scene.TriangleAt(r);
-      const Vec3 n = Normalized(AreaNormal2(receiver));
-      const Box3& mine = boxes[r];
-      tree.Visit(
-        [&](const Box3& box) {
-          for (int a = 0; a < 3; ++a)
-          {
-            if (box.Min[a] > mine.Max[a] || box.Max[a] < mine.Min[a])
-            {
-              return false;
-            }
-          }
-          return true;
-        },
-        [&](std::int32_t t) {
-          if (static_cast<std::size_t>(t) == r)
-          {
-            return true;
-          }
-          const Triangle3 other = scene.TriangleAt(t);
-          double h[3];
-          bool above = false;
-          bool below = false;
-          for (int k = 0; k < 3; ++k)
-          {
-            h[k] = Dot(n, other[k] - receiver[0]);
-            above = above || h[k] > tolerance;
-            below = below || h[k] < -tolerance;
-          }
-          if (!above || !below)
-          {
-            return true; // beside the plane or only touching it: an edge marks the place
-          }
-          Vec3 ends[3];
-          int found = 0;
-          for (int k = 0; k < 3 && found < 2; ++k)
-          {
-            const double a = h[k];
-            const double b = h[(k + 1) % 3];
-            if ((a > 0.0) != (b > 0.0))
-            {
-              ends[found++] = other[k] + (a / (a - b)) * (other[(k + 1) % 3] - other[k]);
-            }
-          }
-          if (found == 2)
-          {
-            result[r].push_back({ ends[0], ends[1] });
-          }
-          return true;
-        });
-    },
-    2e-6);
-  return result;
 }
 
 } // namespace radiometry

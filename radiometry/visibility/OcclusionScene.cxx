@@ -2,6 +2,7 @@
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include "radiometry/geometry/BoxTree.h"
+#include "radiometry/visibility/ShadowLines.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <tuple>
 #include <string>
@@ -184,6 +186,8 @@ struct OcclusionScene::Internals
   std::vector<Triangle3> Triangles;
   BoxTree Tree;
   RTCScene Handle = nullptr;
+  std::once_flag LinesFlag;
+  std::unique_ptr<ShadowLines> Lines;
 
   ~Internals()
   {
@@ -520,6 +524,15 @@ OcclusionScene::OcclusionScene(const Scene& scene)
 }
 
 OcclusionScene::~OcclusionScene() = default;
+
+const ShadowLines& OcclusionScene::Lines(const Scene& scene, int threads) const
+{
+  std::call_once(this->Impl->LinesFlag, [&] {
+    this->Impl->Lines = std::make_unique<ShadowLines>(
+      scene, this->Impl->Tree, this->Impl->Center, this->Impl->Scale, threads);
+  });
+  return *this->Impl->Lines;
+}
 
 bool OcclusionScene::Occluded(const RayEnd& from, const RayEnd& to) const
 {

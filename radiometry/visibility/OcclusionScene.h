@@ -9,6 +9,8 @@
 namespace radiometry
 {
 
+class ShadowLines;
+
 /// What a ray meets first.
 struct SurfaceHit
 {
@@ -48,6 +50,9 @@ public:
   bool Occluded(const RayEnd& from, const RayEnd& to) const;
   /// True when the ray from `from` along `direction` (any length) meets anything.
   bool OccludedDirection(const RayEnd& from, const Vec3& direction) const;
+  /// The lines at which shadows can begin or end, found when first asked for. `scene`: the one this
+  /// was made of.
+  const ShadowLines& Lines(const Scene& scene, int threads) const;
   /// True when a free point (a light, a sensor) lies so near a triangle that its rays must be
   /// decided in double: what RayEnd::Close should be.
   bool TooClose(const Vec3& point) const;
