@@ -6,7 +6,6 @@
 
 With plain VTK there is no `vtkRadiometryRenderingParaView`; everything else is the same.
 """
+from ._build import VERSION as __version__
 from .vtkRadiometryFilters import *
 from .vtkRadiometryRendering import *
-
-__version__ = "0.1.0"

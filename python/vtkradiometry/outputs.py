@@ -59,8 +59,9 @@ def _write_surface(path, surface, scene, options):
     writer = vtkXMLPolyDataWriter()
     writer.SetFileName(path)
     writer.SetInputData(surface)
-    writer.SetDataModeToAppended()
-    writer.EncodeAppendedDataOff()
+    # Not raw appended data: VTK 9.2 cannot read it with an expat that defers parsing (2.6, and the
+    # security update of 2.5 in Debian 12).
+    writer.SetDataModeToBinary()
     if not writer.Write():
         raise OSError(f"{path} could not be written")
 

@@ -4,13 +4,13 @@ import platform
 
 from vtkmodules.vtkCommonCore import vtkVersion
 
+from ._build import LIBRARIES, VERSION
+
 
 def versions():
     """{name: version}, for the report and for --version."""
-    from . import __version__
-
     found = {
-        "vtkRadiometry": __version__,
+        "vtkRadiometry": VERSION,
         "VTK": vtkVersion.GetVTKVersion(),
         "Python": platform.python_version(),
     }
@@ -20,5 +20,6 @@ def versions():
         found["numpy"] = numpy.__version__
     except ImportError:
         pass
+    found.update((name, version) for name, version in LIBRARIES.items() if version)
     found["System"] = f"{platform.system()} {platform.machine()}"
     return found

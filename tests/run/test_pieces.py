@@ -10,7 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
 from front_end import listing, require
-from vtkradiometry import mesh
+from vtkradiometry import mesh, view_mesh
 from vtkradiometry.camera import Camera
 from vtkradiometry.files import OutputFolder
 from vtkradiometry.scales import Scale, nice_step, weighted_quantile
@@ -31,6 +31,46 @@ require(edge == 0.0 and kept.GetNumberOfCells() == 12, "max edge 0 must keep the
 automatic, edge = mesh.refine(cube.GetOutput(), "auto")
 require(0.5 < automatic.GetNumberOfCells() / mesh.AUTOMATIC_TRIANGLES < 2.0,
         "automatic refinement gave", automatic.GetNumberOfCells())
+
+
+
+def open_edges(triangles):
+    """Edges that do not belong to exactly two triangles: none in a closed mesh."""
+    edges = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2))
+    return int((np.unique(edges, axis=0, return_counts=True)[1] != 2).sum())
+
+
+closed = vtkSphereSource()
+closed.SetThetaResolution(11)
+closed.SetPhiResolution(7)
+closed.Update()
+for edge in (0.3, 0.07, 0.031):
+    divided, _ = mesh.refine(closed.GetOutput(), edge)
+    require(open_edges(mesh.triangles(divided)) == 0, "refining opens gaps at", edge)
+
+# The picture's mesh: closed, of the same area, fine where it is seen, exact for linear fields.
+ball, _ = mesh.refine(closed.GetOutput(), 0.2)
+viewer = Camera((0.0, 0.3, 2.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 30.0, 1.5)
+drawn, rear = view_mesh.sides(ball, viewer, np.zeros(ball.GetNumberOfCells(), bool))
+require(0 < drawn.sum() < len(drawn) and not rear.any(), "sides of a ball", drawn.sum())
+rounded = mesh.SmoothSurface(ball)
+fine_mesh = view_mesh.ViewMesh(ball, rounded, viewer, (300, 200), drawn, rear,
+                               np.flatnonzero(drawn))
+require(len(fine_mesh.origin) > 5 * len(drawn), "the picture's mesh is not fine")
+require(open_edges(fine_mesh.index) == 0, "the picture's mesh has gaps")
+require(abs(fine_mesh.area.sum() / mesh.areas(ball).sum() - 1.0) < 1e-12, "area")
+linear = rounded.xyz @ np.array([[0.3], [-1.0], [2.0]]) + 4.0
+exact = fine_mesh.xyz @ np.array([[0.3], [-1.0], [2.0]]) + 4.0
+require(np.abs(fine_mesh.from_computed(linear) - exact).max() < 1e-12, "linear fields")
+require(np.allclose(fine_mesh.from_cells(np.full((len(fine_mesh.origin), 1), 2.5)), 2.5), "constant")
+inside = np.ones(ball.GetNumberOfCells(), bool)
+both, rear = view_mesh.sides(ball, viewer, inside)
+require(both.all() and rear.sum() == (~drawn).sum(), "two-sided cells show their backs")
+turned = view_mesh.ViewMesh(ball, rounded, viewer, (300, 200), both, rear, np.arange(len(both)))
+receiver = turned.receiver(ball)
+toward = viewer.position - mesh.points(receiver)[mesh.triangles(receiver)].mean(axis=1)
+front = np.einsum("ij,ij->i", mesh.cross_products(receiver), toward)
+require((front > -1e-9 * np.abs(front).max()).all(), "every front turns to the camera")
 
 # Smoothing: the cube's faces stay apart, the sphere becomes one smooth surface.
 smooth = mesh.SmoothSurface(kept)
