@@ -53,8 +53,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   EffectAbilities abilities;
   abilities.Interreflection = true;
   abilities.Emission = true;
-  const bool freePoints = std::any_of(
-    points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
+  const bool freePoints =
+    std::any_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectPlan plan(scene, switches, abilities, freePoints);
   options.Interreflection = plan.Simulates(Effect::Interreflection);
   // Where nothing can stand between, rays may still be traced: they are how Monte Carlo exchanges.

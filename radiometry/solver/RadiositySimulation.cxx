@@ -2,15 +2,11 @@
 #include "radiometry/solver/RadiositySimulation.h"
 
 #include "radiometry/formfactor/DenseOperator.h"
-#include "radiometry/formfactor/ElementSet.h"
-#include "radiometry/formfactor/EmitterIrradiance.h"
-#include "radiometry/formfactor/GroupedOperator.h"
-#include "radiometry/formfactor/MonteCarloOperator.h"
 #include "radiometry/formfactor/PairVisibility.h"
 #include "radiometry/formfactor/PointGather.h"
 #include "radiometry/scene/InputError.h"
-#include "radiometry/solver/ElementOptics.h"
-#include "radiometry/solver/RadiositySolver.h"
+#include "radiometry/solver/RadiosityEvaluation.h"
+#include "radiometry/solver/RadiosityLevel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,43 +17,12 @@ namespace radiometry
 namespace
 {
 
-// Half-widths that cover 95 %: of a normal error, and of one estimated from eight batches.
-constexpr double DenseCoverage = 2.0;
-constexpr double CarloCoverage = 2.7; // rays stop where the estimate happens to be low
-constexpr double DiscretisationSafety = 2.0;
 constexpr std::size_t DefaultMemory = std::size_t(2) << 30;
-constexpr std::size_t EmitterPairs = 4000000;
 constexpr int FirstRays = 64;
 constexpr double FirstTolerance = 0.03;
 constexpr int MostRays = 16384;
-/// Cells darker than this share of the mean are held to the tolerance of the share.
-constexpr double DarkShare = 0.05;
 
 const char* const MetOutcome = "the tolerance is met on 95 % of the area";
-
-using Values = std::vector<double>;
-
-/// One discretisation of the scene with all that was computed on it. Values: elements x bands.
-struct Level
-{
-  Level(const Scene& scene, ElementSet set, bool emission)
-    : Elements(std::move(set))
-    , Optics(scene, Elements, emission)
-  {
-  }
-
-  ElementSet Elements;
-  ElementOptics Optics;
-  EmitterSet Emitters; // treated as lights; empty: emission goes through the operator
-  Values First;        // irradiance by lights and such emitters
-  Values Leaving;      // radiosity but for what Emitters treat
-  Values Irradiance;   // all
-  Values DirectError, FormFactorError, VisibilityError, Discretisation, SolverError;
-  std::unique_ptr<FormFactorOperator> F;
-  MonteCarloOperator* Carlo = nullptr; // F, when it is one
-  int Iterations = 0;
-  Values InverseBound; // of the system, from its first solve
-};
 
 const char* MethodName(RadiosityMethod method)
 {
@@ -78,54 +43,24 @@ const char* MethodName(RadiosityMethod method)
 
 struct RadiositySimulation::Internals
 {
-  const Scene& Geometry;
-  const OcclusionScene& Occluders;
-  RadiosityOptions Options;
+  RadiosityContext Context;
   RadiosityResult Result;
-  std::unique_ptr<Level> Finest;
-  std::size_t Bands = 1;
-  std::size_t Memory = DefaultMemory;
+  std::unique_ptr<RadiosityLevel> Finest;
   double Area = 0.0;
-  double Tolerance = 0.01; // of the exchange at the present step, relative
-  bool Convex = false;     // nothing can hide anything
 
   Internals(const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options)
-    : Geometry(scene)
-    , Occluders(occluders)
-    , Options(options)
-    , Bands(static_cast<std::size_t>(scene.Optics.Bands))
-    , Memory(options.MemoryLimit ? options.MemoryLimit : DefaultMemory)
-    , Convex(IsConvex(scene))
+    : Context{ scene, occluders, options }
   {
+    this->Context.Bands = static_cast<std::size_t>(scene.Optics.Bands);
+    this->Context.Memory = options.MemoryLimit ? options.MemoryLimit : DefaultMemory;
+    this->Context.Convex = IsConvex(scene);
   }
 
   double Left() const
   {
-    return this->Options.TimeBudget > 0.0
-      ? this->Options.TimeBudget - this->Result.Convergence.Elapsed()
+    return this->Context.Options.TimeBudget > 0.0
+      ? this->Context.Options.TimeBudget - this->Result.Convergence.Elapsed()
       : std::numeric_limits<double>::infinity();
-  }
-  ExchangeOptions Exchange() const
-  {
-    ExchangeOptions o;
-    o.RelativeTolerance = this->Tolerance;
-    o.Occlusion = this->Options.Occlusion;
-    o.MemoryLimit = this->Memory;
-    o.Threads = this->Options.Threads;
-    o.Seed = this->Options.Seed;
-    return o;
-  }
-  DirectOptions Direct() const
-  {
-    DirectOptions o;
-    o.RelativeTolerance = 0.5 * this->Options.RelativeTolerance;
-    o.AbsoluteTolerance = 0.5 * this->Options.AbsoluteTolerance;
-    o.SecondsLeft = this->Options.TimeBudget > 0.0 ? std::max(1e-3, 0.5 * this->Left()) : 0.0;
-    o.Occlusion = this->Options.Occlusion;
-    o.SpotShape = this->Options.SpotShape;
-    o.Attenuation = this->Options.Attenuation;
-    o.Threads = this->Options.Threads;
-    return o;
   }
   /// Runs f and adds its seconds to the stage's.
   template <class Function>
@@ -148,11 +83,7 @@ struct RadiositySimulation::Internals
   RadiosityMethod Choose(const ElementSet& elements);
   std::size_t DenseLimit() const;
   std::size_t AutomaticLimit() const;
-  void Illuminate(Level& level, const StageProgress& stage);
-  /// `discretise`: estimate the error of constant elements too (else keep the last estimate).
-  void Solve(Level& level, bool discretise, const StageProgress& stage);
-  /// Fills Result from a level; true when the tolerance is met.
-  bool Evaluate(const Level& level, const char* stage, std::vector<std::uint8_t>* unfinished);
+  void Illuminate(RadiosityLevel& level, const StageProgress& stage);
   /// False when elements are too coarse for the tolerance and all pairs of finer ones too many.
   bool RunDense(const ElementSet& coarsest, const StageProgress& stage);
   void RunMonteCarlo(const ElementSet& coarsest, const StageProgress& stage);
@@ -160,8 +91,8 @@ struct RadiositySimulation::Internals
 
 std::size_t RadiositySimulation::Internals::DenseLimit() const
 {
-  std::size_t n = this->Options.RelativeTolerance < 0.003 ? 8192 : 4096;
-  while (n > 64 && DenseOperator::LeastBytes(n) > this->Memory)
+  std::size_t n = this->Context.Options.RelativeTolerance < 0.003 ? 8192 : 4096;
+  while (n > 64 && DenseOperator::LeastBytes(n) > this->Context.Memory)
   {
     n = n * 3 / 4;
   }
@@ -173,8 +104,9 @@ std::size_t RadiositySimulation::Internals::AutomaticLimit() const
   // Where nothing hides anything pairs need no rays; else rays from elements are the cheaper way
   // to all but the finest tolerances.
   const std::size_t limit = this->DenseLimit();
-  const bool rays = this->Options.Method == RadiosityMethod::Auto && this->Options.Occlusion &&
-    !this->Convex && this->Options.RelativeTolerance >= 0.005;
+  const bool rays = this->Context.Options.Method == RadiosityMethod::Auto &&
+    this->Context.Options.Occlusion && !this->Context.Convex &&
+    this->Context.Options.RelativeTolerance >= 0.005;
   return rays ? std::min<std::size_t>(limit, 1024) : limit;
 }
 
@@ -183,30 +115,32 @@ RadiosityMethod RadiositySimulation::Internals::Choose(const ElementSet& element
   const std::size_t n = elements.Size();
   const std::string count = std::to_string(n) + " elements";
   std::string& why = this->Result.MethodWhy;
-  if (this->Options.Method == RadiosityMethod::Hierarchical)
+  if (this->Context.Options.Method == RadiosityMethod::Hierarchical)
   {
     throw InputError(
       "Method", -1, "Hierarchical", "Auto, Dense or MonteCarlo: not available in this version");
   }
-  if (this->Options.Method == RadiosityMethod::MonteCarlo && !this->Options.Occlusion)
+  if (this->Context.Options.Method == RadiosityMethod::MonteCarlo &&
+    !this->Context.Options.Occlusion)
   {
     throw InputError("Method", -1, "MonteCarlo",
       "Auto or Dense where Occlusion is off: rays cannot pass through what they meet");
   }
-  if (this->Options.Method != RadiosityMethod::Auto)
+  if (this->Context.Options.Method != RadiosityMethod::Auto)
   {
-    why = std::string(MethodName(this->Options.Method)) + " as asked";
-    return this->Options.Method;
+    why = std::string(MethodName(this->Context.Options.Method)) + " as asked";
+    return this->Context.Options.Method;
   }
-  if (!this->Options.Occlusion)
+  if (!this->Context.Options.Occlusion)
   {
     why = "Dense: occlusion is off, and rays cannot pass through what they meet";
     return RadiosityMethod::Dense;
   }
   const std::size_t limit = this->AutomaticLimit();
-  const double wanted = std::clamp(10.0 / this->Options.RelativeTolerance, 200.0, 2000.0);
-  const std::size_t fine =
-    this->Options.Refinement == RefinementMode::Off ? n : elements.CountAtArea(this->Area / wanted);
+  const double wanted = std::clamp(10.0 / this->Context.Options.RelativeTolerance, 200.0, 2000.0);
+  const std::size_t fine = this->Context.Options.Refinement == RefinementMode::Off
+    ? n
+    : elements.CountAtArea(this->Area / wanted);
   if (n > limit || fine > limit + limit / 2)
   {
     why = "MonteCarlo: " + count + " (" + std::to_string(fine) +
@@ -214,7 +148,7 @@ RadiosityMethod RadiositySimulation::Internals::Choose(const ElementSet& element
       " whose pairs would be worth their rays and memory";
     return RadiosityMethod::MonteCarlo;
   }
-  const double threads = this->Options.Threads > 0 ? this->Options.Threads : 2.0;
+  const double threads = this->Context.Options.Threads > 0 ? this->Context.Options.Threads : 2.0;
   if (2e-6 * static_cast<double>(n) * static_cast<double>(n) / threads > 0.5 * this->Left())
   {
     why = "MonteCarlo: all pairs of " + count + " do not fit in the time budget";
@@ -224,371 +158,25 @@ RadiosityMethod RadiositySimulation::Internals::Choose(const ElementSet& element
   return RadiosityMethod::Dense;
 }
 
-void RadiositySimulation::Internals::Illuminate(Level& level, const StageProgress& stage)
+void RadiositySimulation::Internals::Illuminate(RadiosityLevel& level, const StageProgress& stage)
 {
-  const std::vector<Patch>& patches = level.Elements.GetPatches();
-  StageProgress part = stage;
-  part.Name = "direct light";
-  this->Timed("direct light", [&] {
-    DirectResult direct =
-      ComputeDirectIrradiance(this->Geometry, this->Occluders, patches, this->Direct(), part);
-    level.First = std::move(direct.Irradiance);
-    level.DirectError = std::move(direct.Error);
-  });
-  const std::size_t values = patches.size() * this->Bands;
-  level.FormFactorError.assign(values, 0.0);
-  level.VisibilityError.assign(values, 0.0);
-  level.Discretisation.assign(values, 0.0);
-  level.SolverError.assign(values, 0.0);
-  level.Irradiance = level.First;
-  if (this->Options.Emission)
-  {
-    level.Emitters =
-      SmallEmitters(this->Geometry, level.Elements, this->Options.BackFaces, EmitterPairs);
-  }
+  StageProgress lights = stage;
+  lights.Name = "direct light";
+  this->Timed(
+    "direct light", [&] { level.IlluminateByLights(this->Context, this->Left(), lights); });
+  StageProgress emitters = stage;
+  emitters.Name = "emitters";
+  emitters.Begin = emitters.End;
   if (!level.Emitters.Empty())
   {
-    part.Name = "emitters";
-    this->Timed("emitters", [&] {
-      ExchangeOptions exchange = this->Exchange();
-      exchange.Occlusion = exchange.Occlusion && !this->Convex;
-      const EmitterResult e =
-        ComputeEmitterIrradiance(this->Occluders, patches, level.Emitters, exchange, part);
-      for (std::size_t k = 0; k < values; ++k)
-      {
-        level.First[k] += e.Irradiance[k];
-        level.DirectError[k] =
-          std::hypot(level.DirectError[k], DenseCoverage * e.VisibilityError[k]) +
-          e.GeometryError[k];
-      }
-    });
-    level.Irradiance = level.First;
+    this->Timed("emitters", [&] { level.IlluminateByEmitters(this->Context, emitters); });
   }
-}
-
-void RadiositySimulation::Internals::Solve(
-  Level& level, bool discretise, const StageProgress& stage)
-{
-  const std::size_t n = level.Elements.Size();
-  const std::size_t values = n * this->Bands;
-  const int bands = static_cast<int>(this->Bands);
-  Values source(values), gathered(values), rho = level.Optics.Reflectance;
-  if (!this->Options.Interreflection)
-  {
-    std::fill(rho.begin(), rho.end(), 0.0);
-  }
-  for (std::size_t k = 0; k < values; ++k)
-  {
-    // Without interreflection only what is emitted travels on.
-    source[k] = rho[k] * level.First[k] + (level.Emitters.Empty() ? level.Optics.Exitance[k] : 0.0);
-  }
-
-  SolveOptions options;
-  options.Tolerance = std::clamp(1e-3 * this->Options.RelativeTolerance, 1e-9, 1e-5);
-  std::vector<std::int32_t> cells(n);
-  for (std::size_t e = 0; e < n; ++e)
-  {
-    cells[e] = level.Elements.GetPatches()[e].Cell;
-  }
-  const auto solveIn = [&](const GroupedOperator& grouped, std::size_t groups,
-                         const SolveOptions& how) {
-    Values groupRho(groups * this->Bands), groupSource(groups * this->Bands);
-    grouped.Restrict(rho.data(), groupRho.data(), bands);
-    grouped.Restrict(source.data(), groupSource.data(), bands);
-    return SolveRadiosity(grouped, groupRho, groupSource, bands, how, {}, stage);
-  };
-  // A second solve of the same elements begins where the first ended.
-  const Values guess = level.Leaving;
-  if (!level.InverseBound.empty())
-  {
-    options.InverseBound = &level.InverseBound;
-    options.Guess =
-      guess.size() == values && this->Options.Refinement != RefinementMode::Off ? &guess : nullptr;
-  }
-
-  level.Leaving.assign(values, 0.0);
-  if (this->Options.Refinement == RefinementMode::Off)
-  {
-    std::size_t count = 0;
-    const std::vector<std::int32_t> group = level.Elements.CellGroups(count);
-    const GroupedOperator grouped(*level.F, group, count);
-    const SolveResult r = solveIn(grouped, count, options);
-    grouped.Prolong(r.Radiosity.data(), level.Leaving.data(), bands);
-    grouped.Prolong(r.Error.data(), level.SolverError.data(), bands);
-    level.Iterations += r.Iterations;
-    level.InverseBound = r.InverseBound;
-    level.F->Apply(level.Leaving.data(), gathered.data(), bands);
-  }
-  else
-  {
-    SolveResult r = SolveRadiosity(*level.F, rho, source, bands, options, cells, stage);
-    level.Leaving = std::move(r.Radiosity);
-    level.SolverError = std::move(r.Error);
-    gathered = std::move(r.Irradiance);
-    level.Iterations += r.Iterations;
-    level.InverseBound = std::move(r.InverseBound);
-  }
-  for (std::size_t k = 0; k < values; ++k)
-  {
-    level.Irradiance[k] = level.First[k] + gathered[k];
-  }
-
-  // What the operator does not know, given what leaves.
-  level.F->ApplyError(
-    level.Leaving.data(), level.FormFactorError.data(), level.VisibilityError.data(), bands);
-  const double coverage = level.Carlo ? CarloCoverage : DenseCoverage;
-  for (double& v : level.VisibilityError)
-  {
-    v *= coverage;
-  }
-
-  // Errors of direct light travel on as light does.
-  Values carried(values), arrived(values);
-  for (std::size_t k = 0; k < values; ++k)
-  {
-    carried[k] = rho[k] * level.DirectError[k];
-  }
-  level.F->Apply(carried.data(), arrived.data(), bands);
-  for (std::size_t k = 0; k < values; ++k)
-  {
-    level.DirectError[k] += arrived[k];
-  }
-
-  if (!discretise)
-  {
-    return;
-  }
-  // A difference of some per cent needs no more digits than that.
-  const Values none;
-  SolveOptions rough;
-  rough.Tolerance = std::clamp(0.01 * this->Options.RelativeTolerance, 1e-8, 1e-4);
-  rough.InverseBound = &none;
-  if (this->Options.Refinement == RefinementMode::Off && level.Elements.Depth(0) > 0)
-  {
-    const SolveResult free = SolveRadiosity(*level.F, rho, source, bands, rough, cells, stage);
-    for (std::size_t k = 0; k < values; ++k)
-    {
-      level.Discretisation[k] = 1.5 * (free.Irradiance[k] - gathered[k]);
-    }
-    return;
-  }
-
-  // The same on elements merged by fours and by sixteens. What the first merging changes, and how
-  // much less that is than what the second does, tell what elements of no size would change.
-  std::array<Values, 2> merged;
-  for (int levels = 1; levels <= 2; ++levels)
-  {
-    std::size_t count = 0;
-    const std::vector<std::int32_t> group = level.Elements.Groups(this->Geometry, levels, count);
-    const GroupedOperator grouped(*level.F, group, count);
-    const SolveResult coarse = solveIn(grouped, count, rough);
-    Values prolonged(values);
-    grouped.Prolong(coarse.Radiosity.data(), prolonged.data(), bands);
-    merged[static_cast<std::size_t>(levels - 1)].resize(values);
-    level.F->Apply(prolonged.data(), merged[static_cast<std::size_t>(levels - 1)].data(), bands);
-  }
-  for (std::size_t b = 0; b < this->Bands; ++b)
-  {
-    double fine = 0.0, coarse = 0.0;
-    for (std::size_t e = 0; e < n; ++e)
-    {
-      const std::size_t k = e * this->Bands + b;
-      const double a = level.Elements.GetAreas()[e];
-      fine += a * (gathered[k] - merged[0][k]) * (gathered[k] - merged[0][k]);
-      coarse += a * (merged[0][k] - merged[1][k]) * (merged[0][k] - merged[1][k]);
-    }
-    // Each division shrinks the change by `ratio`: the changes still to come sum to 1/(ratio - 1).
-    const double ratio = fine > 0.0 ? std::clamp(std::sqrt(coarse / fine), 1.5, 4.0) : 4.0;
-    for (std::size_t k = b; k < values; k += this->Bands)
-    {
-      level.Discretisation[k] = DiscretisationSafety / (ratio - 1.0) * (gathered[k] - merged[0][k]);
-    }
-  }
-}
-
-bool RadiositySimulation::Internals::Evaluate(
-  const Level& level, const char* stage, std::vector<std::uint8_t>* unfinished)
-{
-  const std::size_t n = level.Elements.Size();
-  const std::size_t nb = this->Bands;
-  const std::vector<Patch>& patches = level.Elements.GetPatches();
-  const std::vector<double>& areas = level.Elements.GetAreas();
-  const std::size_t cells = this->Geometry.Cells;
-  RadiosityResult& result = this->Result;
-
-  // Sums over the cells' sides: linear for what may have one sign, squares for sampling.
-  struct Sums
-  {
-    Values Area, Value, Gathered, Leaving, Direct, FormFactor, Visibility, Signed, Squares, Solver;
-  };
-  std::array<Sums, 2> sums;
-  for (Sums& s : sums)
-  {
-    s.Area.assign(cells, 0.0);
-    for (Values* v : { &s.Value, &s.Gathered, &s.Leaving, &s.Direct, &s.FormFactor, &s.Visibility,
-           &s.Signed, &s.Squares, &s.Solver })
-    {
-      v->assign(cells * nb, 0.0);
-    }
-  }
-  // The spread of the estimate over each element and its neighbours, and its mean share of the
-  // gathered light: a difference that happens to pass through zero at one place is not an error of
-  // zero there.
-  std::size_t groups = 0;
-  const std::vector<std::int32_t> group = level.Elements.Groups(this->Geometry, 1, groups);
-  Values groupSquare(groups * nb, 0.0), groupArea(groups, 0.0);
-  for (std::size_t e = 0; e < n; ++e)
-  {
-    const auto g = static_cast<std::size_t>(group[e]);
-    groupArea[g] += areas[e];
-    for (std::size_t b = 0; b < nb; ++b)
-    {
-      const double d = level.Discretisation[e * nb + b];
-      groupSquare[g * nb + b] += areas[e] * d * d;
-    }
-  }
-  Values meanShare(nb, 0.0);
-  for (std::size_t b = 0; b < nb; ++b)
-  {
-    double difference = 0.0, all = 0.0;
-    for (std::size_t e = 0; e < n; ++e)
-    {
-      difference += areas[e] * std::abs(level.Discretisation[e * nb + b]);
-      all += areas[e] * (level.Irradiance[e * nb + b] - level.First[e * nb + b]);
-    }
-    meanShare[b] = all > 0.0 ? difference / all : 0.0;
-  }
-  bool back = false;
-  for (std::size_t e = 0; e < n; ++e)
-  {
-    Sums& s = sums[patches[e].Side];
-    back = back || patches[e].Side == 1;
-    const auto c = static_cast<std::size_t>(patches[e].Cell);
-    const auto g = static_cast<std::size_t>(group[e]);
-    const double a = areas[e];
-    s.Area[c] += a;
-    for (std::size_t b = 0; b < nb; ++b)
-    {
-      const std::size_t k = e * nb + b, to = c * nb + b;
-      s.Value[to] += a * level.Irradiance[k];
-      s.Gathered[to] += a * (level.Irradiance[k] - level.First[k]);
-      s.Leaving[to] +=
-        a * (level.Optics.Exitance[k] + level.Optics.Reflectance[k] * level.Irradiance[k]);
-      s.Direct[to] += a * level.DirectError[k];
-      s.FormFactor[to] += a * level.FormFactorError[k];
-      s.Visibility[to] += a * a * level.VisibilityError[k] * level.VisibilityError[k];
-      s.Signed[to] += a * level.Discretisation[k];
-      s.Squares[to] += a * groupSquare[g * nb + b] / groupArea[g];
-      s.Solver[to] += a * level.SolverError[k];
-    }
-  }
-
-  result.Budget = {};
-  double totalArea = 0.0, totalValue = 0.0, totalError = 0.0, meanValue = 0.0;
-  for (const Sums& s : sums)
-  {
-    for (std::size_t c = 0; c < cells; ++c)
-    {
-      totalArea += s.Area[c];
-      for (std::size_t b = 0; b < nb; ++b)
-      {
-        totalValue += s.Value[c * nb + b];
-      }
-    }
-  }
-  meanValue = totalArea > 0.0 ? totalValue / (totalArea * static_cast<double>(nb)) : 0.0;
-  double met = 0.0;
-  std::array<std::vector<std::uint8_t>, 2> open;
-  for (std::size_t side = 0; side < (back ? 2 : 1); ++side)
-  {
-    const Sums& s = sums[side];
-    FieldValues& irradiance = result.Irradiance[side];
-    FieldValues& radiosity = result.Radiosity[side];
-    for (FieldValues* f : { &irradiance, &radiosity })
-    {
-      f->Values.assign(cells * nb, 0.0);
-      f->Errors.assign(cells * nb, 0.0);
-    }
-    open[side].assign(cells, 0);
-    for (std::size_t c = 0; c < cells; ++c)
-    {
-      const double a = s.Area[c];
-      if (!(a > 0.0))
-      {
-        continue;
-      }
-      bool fine = true;
-      RadiosityErrorBudget worst;
-      for (std::size_t b = 0; b < nb; ++b)
-      {
-        const std::size_t k = c * nb + b;
-        const double value = s.Value[k] / a;
-        const double direct = s.Direct[k] / a;
-        const double formFactor = s.FormFactor[k] / a;
-        const double visibility = std::sqrt(s.Visibility[k]) / a;
-        const double discretisation = std::max({ std::abs(s.Signed[k]) / a,
-          0.5 * std::sqrt(s.Squares[k] / a), 0.7 * meanShare[b] * s.Gathered[k] / a });
-        const double solver = s.Solver[k] / a;
-        const double error =
-          std::hypot(std::hypot(direct, visibility), discretisation) + formFactor + solver;
-        irradiance.Values[k] = value;
-        irradiance.Errors[k] = error;
-        // B = M + rho E holds for the averages, and so for their errors.
-        radiosity.Values[k] = s.Leaving[k] / a;
-        totalError += a * error;
-        const double allowed = std::max(this->Options.AbsoluteTolerance,
-          this->Options.RelativeTolerance * std::max(value, DarkShare * meanValue));
-        fine = fine && error <= allowed;
-        worst.Direct = std::max(worst.Direct, direct);
-        worst.FormFactors = std::max(worst.FormFactors, formFactor);
-        worst.Visibility = std::max(worst.Visibility, visibility);
-        worst.Discretisation = std::max(worst.Discretisation, discretisation);
-        worst.Solver = std::max(worst.Solver, solver);
-      }
-      met += fine ? a : 0.0;
-      open[side][c] = !fine;
-      const double share = a / totalArea;
-      result.Budget.Direct += share * worst.Direct;
-      result.Budget.FormFactors += share * worst.FormFactors;
-      result.Budget.Visibility += share * worst.Visibility;
-      result.Budget.Discretisation += share * worst.Discretisation;
-      result.Budget.Solver += share * worst.Solver;
-    }
-  }
-  // Radiosity's error: that of irradiance, reflected. Reflectance is a cell's own.
-  for (std::size_t e = 0; e < n; ++e)
-  {
-    const std::size_t side = patches[e].Side;
-    for (std::size_t b = 0; b < nb; ++b)
-    {
-      const std::size_t to = static_cast<std::size_t>(patches[e].Cell) * nb + b;
-      result.Radiosity[side].Errors[to] =
-        level.Optics.Reflectance[e * nb + b] * result.Irradiance[side].Errors[to];
-    }
-  }
-  if (unfinished)
-  {
-    unfinished->assign(n, 0);
-    for (std::size_t e = 0; e < n; ++e)
-    {
-      (*unfinished)[e] = open[patches[e].Side][static_cast<std::size_t>(patches[e].Cell)];
-    }
-  }
-  result.Elements = n;
-  result.Iterations = level.Iterations;
-  result.Samples = level.F ? level.F->Samples() : 0;
-  result.OperatorBytes = level.F ? level.F->MemoryBytes() : 0;
-  result.Closure = level.F ? level.F->Closure() : ClosureReport{};
-  const double perValue = totalArea * static_cast<double>(nb);
-  result.Convergence.Add(stage, totalValue > 0.0 ? totalError / totalValue : 0.0,
-    perValue > 0.0 ? totalError / perValue : 0.0, result.Samples);
-  return met >= 0.95 * totalArea;
 }
 
 bool RadiositySimulation::Internals::RunDense(
   const ElementSet& coarsest, const StageProgress& stage)
 {
-  const bool refine = this->Options.Refinement != RefinementMode::Off;
+  const bool refine = this->Context.Options.Refinement != RefinementMode::Off;
   const std::size_t limit = std::max(this->AutomaticLimit(), coarsest.Size());
   double area = refine ? this->Area / 200.0 : std::numeric_limits<double>::infinity();
   while (refine && coarsest.CountAtArea(area) > limit)
@@ -597,7 +185,8 @@ bool RadiositySimulation::Internals::RunDense(
   }
   // Coarse elements need no fine exchange: both get finer, as the error asks for the one or the
   // other.
-  this->Tolerance = std::max(this->Options.RelativeTolerance, refine ? FirstTolerance : 0.0);
+  this->Context.Tolerance =
+    std::max(this->Context.Options.RelativeTolerance, refine ? FirstTolerance : 0.0);
   this->Result.Outcome = "as fine as this version solves";
   const double span = stage.End - stage.Begin;
   double begin = stage.Begin;
@@ -619,18 +208,18 @@ bool RadiositySimulation::Internals::RunDense(
       // One radiosity a cell, and the solve without that restriction to know what it costs.
       elements = coarsest.Divided(std::vector<std::uint8_t>(coarsest.Size(), 1));
     }
-    auto level = std::make_unique<Level>(this->Geometry, elements, this->Options.Emission);
+    auto level = std::make_unique<RadiosityLevel>(this->Context, elements);
     this->Illuminate(*level, part(0.0, 0.2, "direct light"));
     this->Timed("exchange", [&] {
-      level->F = std::make_unique<DenseOperator>(this->Geometry, this->Occluders, level->Elements,
-        this->Exchange(), part(0.2, 0.8, "exchange"));
+      level->F = std::make_unique<DenseOperator>(this->Context.Geometry, this->Context.Occluders,
+        level->Elements, this->Context.Exchange(), part(0.2, 0.8, "exchange"));
     });
-    this->Timed("solve", [&] { this->Solve(*level, true, part(0.8, 1.0, "solve")); });
+    this->Timed("solve", [&] { level->Solve(this->Context, true, part(0.8, 1.0, "solve")); });
     begin = part(0.0, 1.0, "").End;
-    const bool met = this->Evaluate(*level, "solved", nullptr);
+    const bool met = EvaluateRadiosity(this->Context, *level, "solved", this->Result, nullptr);
     const std::size_t n = level->Elements.Size();
     this->Finest = std::move(level);
-    if (met && !(this->Options.Refinement == RefinementMode::On && n == coarsest.Size()))
+    if (met && !(this->Context.Options.Refinement == RefinementMode::On && n == coarsest.Size()))
     {
       this->Result.Outcome = MetOutcome;
       return true;
@@ -643,10 +232,10 @@ bool RadiositySimulation::Internals::RunDense(
     // Finer elements where they limit, finer exchange where that does.
     const RadiosityErrorBudget& budget = this->Result.Budget;
     const double sampled = budget.Direct + budget.Visibility + budget.FormFactors;
-    const double tolerance = this->Tolerance;
+    const double tolerance = this->Context.Tolerance;
     if (sampled > 0.3 * budget.Discretisation)
     {
-      this->Tolerance = std::max(this->Options.RelativeTolerance, 0.3 * tolerance);
+      this->Context.Tolerance = std::max(this->Context.Options.RelativeTolerance, 0.3 * tolerance);
     }
     std::size_t count = n;
     double next = area;
@@ -664,7 +253,7 @@ bool RadiositySimulation::Internals::RunDense(
         count = n;
       }
     }
-    if (count == n && this->Tolerance == tolerance)
+    if (count == n && this->Context.Tolerance == tolerance)
     {
       if (budget.Discretisation > 0.3 * sampled)
       {
@@ -675,7 +264,7 @@ bool RadiositySimulation::Internals::RunDense(
     }
     const double ratio = static_cast<double>(count) / static_cast<double>(n);
     const double predicted = (this->Result.Convergence.Elapsed() - started) * ratio * ratio *
-      (tolerance / this->Tolerance);
+      (tolerance / this->Context.Tolerance);
     if (predicted > this->Left())
     {
       this->Result.Outcome = "the time budget does not allow a finer step";
@@ -690,11 +279,11 @@ void RadiositySimulation::Internals::RunMonteCarlo(
 {
   // Elements fine enough for the tolerance, as far as rays for them fit in time and memory.
   ElementSet elements = coarsest;
-  if (this->Options.Refinement != RefinementMode::Off)
+  if (this->Context.Options.Refinement != RefinementMode::Off)
   {
-    double wanted = std::clamp(60.0 / this->Options.RelativeTolerance, 500.0, 6000.0);
+    double wanted = std::clamp(60.0 / this->Context.Options.RelativeTolerance, 500.0, 6000.0);
     std::size_t most = std::max<std::size_t>(2 * coarsest.Size(), 30000);
-    most = std::min(most, this->Memory / 2 / (FirstRays * 4 + 200));
+    most = std::min(most, this->Context.Memory / 2 / (FirstRays * 4 + 200));
     while (coarsest.CountAtArea(this->Area / wanted) > most && wanted > 50.0)
     {
       wanted *= 0.7;
@@ -709,22 +298,21 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     p.Name = name;
     return p;
   };
-  this->Tolerance = this->Options.RelativeTolerance;
-  auto level = std::make_unique<Level>(this->Geometry, elements, this->Options.Emission);
+  this->Context.Tolerance = this->Context.Options.RelativeTolerance;
+  auto level = std::make_unique<RadiosityLevel>(this->Context, elements);
   this->Illuminate(*level, part(0.0, 0.2, "direct light"));
-  const Values directError = level->DirectError;
   const std::size_t n = level->Elements.Size();
   double raySeconds = 0.0;
   this->Timed("rays", [&] {
     const double begin = this->Result.Convergence.Elapsed();
     int rays = FirstRays;
-    if (this->Options.TimeBudget > 0.0)
+    if (this->Context.Options.TimeBudget > 0.0)
     {
       rays = static_cast<int>(
         std::clamp(0.2e6 * this->Left() / static_cast<double>(n), 16.0, double(FirstRays)));
     }
-    auto carlo = std::make_unique<MonteCarloOperator>(
-      this->Occluders, level->Elements, this->Exchange(), rays, part(0.2, 0.3, "rays"));
+    auto carlo = std::make_unique<MonteCarloOperator>(this->Context.Occluders, level->Elements,
+      this->Context.Exchange(), rays, part(0.2, 0.3, "rays"));
     level->Carlo = carlo.get();
     level->F = std::move(carlo);
     raySeconds = (this->Result.Convergence.Elapsed() - begin) /
@@ -734,11 +322,11 @@ void RadiositySimulation::Internals::RunMonteCarlo(
   for (int rounds = 0;; ++rounds)
   {
     const double round = this->Result.Convergence.Elapsed();
-    this->Timed(
-      "solve", [&] { this->Solve(*level, rounds == 0 || rounds == 2, part(at, at, "solve")); });
+    this->Timed("solve",
+      [&] { level->Solve(this->Context, rounds == 0 || rounds == 2, part(at, at, "solve")); });
     const double solveSeconds = this->Result.Convergence.Elapsed() - round;
     std::vector<std::uint8_t> unfinished;
-    const bool met = this->Evaluate(*level, "rays", &unfinished);
+    const bool met = EvaluateRadiosity(this->Context, *level, "rays", this->Result, &unfinished);
     if (met)
     {
       this->Result.Outcome = MetOutcome;
@@ -749,9 +337,9 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     for (std::size_t e = 0; e < n; ++e)
     {
       bool limits = false;
-      for (std::size_t b = 0; b < this->Bands; ++b)
+      for (std::size_t b = 0; b < this->Context.Bands; ++b)
       {
-        const std::size_t k = e * this->Bands + b;
+        const std::size_t k = e * this->Context.Bands + b;
         limits = limits ||
           level->VisibilityError[k] >
             0.3 * (std::abs(level->Discretisation[k]) + level->DirectError[k]);
@@ -764,7 +352,7 @@ void RadiositySimulation::Internals::RunMonteCarlo(
       this->Result.Outcome = "the elements' size limits the error, not the rays";
       break;
     }
-    if (level->F->MemoryBytes() + static_cast<std::size_t>(more) * 4 > this->Memory)
+    if (level->F->MemoryBytes() + static_cast<std::size_t>(more) * 4 > this->Context.Memory)
     {
       this->Result.Outcome = "the memory limit does not allow more rays";
       break;
@@ -777,7 +365,6 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     const double to = at + 0.3 * (1.0 - at);
     this->Timed("rays", [&] { level->Carlo->DoubleRays(unfinished, part(at, to, "rays")); });
     at = to;
-    level->DirectError = directError;
   }
   this->Finest = std::move(level);
 }
@@ -793,14 +380,14 @@ RadiositySimulation::~RadiositySimulation() = default;
 const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
 {
   Internals& m = *this->Impl;
-  CheckOptics(m.Geometry);
-  if (!(m.Options.RelativeTolerance > 0.0) && !(m.Options.AbsoluteTolerance > 0.0))
+  CheckOptics(m.Context.Geometry);
+  if (!(m.Context.Options.RelativeTolerance > 0.0) && !(m.Context.Options.AbsoluteTolerance > 0.0))
   {
-    throw InputError("RelativeTolerance", -1, m.Options.RelativeTolerance,
+    throw InputError("RelativeTolerance", -1, m.Context.Options.RelativeTolerance,
       "a positive number, unless AbsoluteTolerance is positive");
   }
-  m.Options.RelativeTolerance = std::clamp(m.Options.RelativeTolerance, 1e-6, 1.0);
-  const ElementSet elements(m.Geometry, m.Options.BackFaces);
+  m.Context.Options.RelativeTolerance = std::clamp(m.Context.Options.RelativeTolerance, 1e-6, 1.0);
+  const ElementSet elements(m.Context.Geometry, m.Context.Options.BackFaces);
   for (const double a : elements.GetAreas())
   {
     m.Area += a;
@@ -810,7 +397,7 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   {
     for (FieldValues* f : { &m.Result.Irradiance[0], &m.Result.Radiosity[0] })
     {
-      f->Values.assign(m.Geometry.Cells * m.Bands, 0.0);
+      f->Values.assign(m.Context.Geometry.Cells * m.Context.Bands, 0.0);
       f->Errors = f->Values;
     }
     m.Result.Outcome = "there is nothing to receive light";
@@ -818,24 +405,21 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   }
 
   // When nothing travels on, what the lights give is all.
-  const ElementOptics optics(m.Geometry, elements, m.Options.Emission);
+  const ElementOptics optics(m.Context.Geometry, elements, m.Context.Options.Emission);
   const auto positive = [](double v) { return v > 0.0; };
-  const bool reflects = m.Options.Interreflection &&
+  const bool reflects = m.Context.Options.Interreflection &&
     std::any_of(optics.Reflectance.begin(), optics.Reflectance.end(), positive);
   const bool emits = std::any_of(optics.Exitance.begin(), optics.Exitance.end(), positive);
   const bool lit = emits ||
-    std::any_of(m.Geometry.Lights.begin(), m.Geometry.Lights.end(),
+    std::any_of(m.Context.Geometry.Lights.begin(), m.Context.Geometry.Lights.end(),
       [](const Light& light) { return light.Enabled; });
-  const bool lightsOnly = !lit ||
-    (!reflects &&
-      (!emits || !SmallEmitters(m.Geometry, elements, m.Options.BackFaces, EmitterPairs).Empty()));
+  const bool lightsOnly =
+    !lit || (!reflects && (!emits || !RadiosityLevel(m.Context, elements).Emitters.Empty()));
   if (lightsOnly)
   {
-    auto level = std::make_unique<Level>(m.Geometry, elements, m.Options.Emission);
+    auto level = std::make_unique<RadiosityLevel>(m.Context, elements);
     m.Illuminate(*level, stage);
-    const std::size_t values = elements.Size() * m.Bands;
-    level->Leaving.assign(values, 0.0);
-    m.Evaluate(*level, "direct light", nullptr);
+    EvaluateRadiosity(m.Context, *level, "direct light", m.Result, nullptr);
     m.Finest = std::move(level);
     m.Result.MethodWhy = "none: nothing is reflected";
     m.Result.Outcome = "direct light is all there is";
@@ -845,8 +429,8 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   {
     m.RunMonteCarlo(elements, stage);
   }
-  else if (!m.RunDense(elements, stage) && m.Options.Method == RadiosityMethod::Auto &&
-    m.Options.Occlusion && !m.Convex)
+  else if (!m.RunDense(elements, stage) && m.Context.Options.Method == RadiosityMethod::Auto &&
+    m.Context.Options.Occlusion && !m.Context.Convex)
   {
     m.Result.Method = RadiosityMethod::MonteCarlo;
     m.Result.MethodWhy = "MonteCarlo: the tolerance asks for more elements than all pairs allow";
@@ -863,14 +447,13 @@ FieldValues RadiositySimulation::IrradianceAt(
   FieldValues out;
   if (!m.Finest)
   {
-    out.Values.assign(points.size() * m.Bands, 0.0);
+    out.Values.assign(points.size() * m.Context.Bands, 0.0);
     out.Errors = out.Values;
     return out;
   }
-  const Level& level = *m.Finest;
-  ExchangeOptions exchange = m.Exchange();
-  exchange.RelativeTolerance = m.Options.RelativeTolerance;
-  exchange.Occlusion = exchange.Occlusion && !m.Convex;
+  const RadiosityLevel& level = *m.Finest;
+  ExchangeOptions exchange = m.Context.Sight();
+  exchange.RelativeTolerance = m.Context.Options.RelativeTolerance;
   const auto part = [&](double from, double to, const char* name) {
     StageProgress p = stage;
     p.Begin = stage.Begin + from * (stage.End - stage.Begin);
@@ -878,14 +461,14 @@ FieldValues RadiositySimulation::IrradianceAt(
     p.Name = name;
     return p;
   };
-  DirectResult direct = ComputeDirectIrradiance(
-    m.Geometry, m.Occluders, points, m.Direct(), part(0.0, 0.2, "direct light at points"));
+  DirectResult direct = ComputeDirectIrradiance(m.Context.Geometry, m.Context.Occluders, points,
+    m.Context.Direct(m.Left()), part(0.0, 0.2, "direct light at points"));
   out.Values = std::move(direct.Irradiance);
   out.Errors = std::move(direct.Error);
   if (!level.Emitters.Empty())
   {
-    const EmitterResult e = ComputeEmitterIrradiance(m.Geometry, m.Occluders, points,
-      level.Emitters, exchange, part(0.2, 0.4, "emitters at points"));
+    const EmitterResult e = ComputeEmitterIrradiance(m.Context.Geometry, m.Context.Occluders,
+      points, level.Emitters, exchange, part(0.2, 0.4, "emitters at points"));
     for (std::size_t k = 0; k < out.Values.size(); ++k)
     {
       out.Values[k] += e.Irradiance[k];
@@ -898,15 +481,16 @@ FieldValues RadiositySimulation::IrradianceAt(
     double mean = 0.0, area = 0.0;
     for (std::size_t k = 0; k < level.Irradiance.size(); ++k)
     {
-      const double a = level.Elements.GetAreas()[k / m.Bands];
+      const double a = level.Elements.GetAreas()[k / m.Context.Bands];
       mean += a * level.Irradiance[k];
       area += a;
     }
     mean /= area;
-    const double allowed =
-      std::max(m.Options.AbsoluteTolerance, m.Options.RelativeTolerance * DarkShare * mean);
-    const GatherResult g = GatherAtPoints(m.Geometry, m.Occluders, level.Elements, level.Leaving,
-      static_cast<int>(m.Bands), points, allowed, exchange, part(0.4, 1.0, "final gather"));
+    const double allowed = std::max(m.Context.Options.AbsoluteTolerance,
+      m.Context.Options.RelativeTolerance * DarkestShare * mean);
+    const GatherResult g = GatherAtPoints(m.Context.Geometry, m.Context.Occluders, level.Elements,
+      level.Leaving, static_cast<int>(m.Context.Bands), points, allowed, exchange,
+      part(0.4, 1.0, "final gather"));
     // The elements' own errors reach points as they reach elements: by their mean share.
     const RadiosityErrorBudget& budget = m.Result.Budget;
     const double share =

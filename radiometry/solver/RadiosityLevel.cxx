@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/solver/RadiosityLevel.h"
+
+#include "radiometry/formfactor/GroupedOperator.h"
+#include "radiometry/solver/RadiositySolver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace radiometry
+{
+namespace
+{
+
+using Values = RadiosityLevel::Values;
+
+constexpr std::size_t EmitterPairs = 4000000;
+constexpr double DiscretisationSafety = 2.0;
+
+/// The system solved with one unknown for each group of elements.
+SolveResult SolveGrouped(const GroupedOperator& grouped, const Values& rho, const Values& source,
+  int bands, const SolveOptions& options, const StageProgress& stage)
+{
+  const std::size_t values = grouped.Size() * static_cast<std::size_t>(bands);
+  Values groupRho(values), groupSource(values);
+  grouped.Restrict(rho.data(), groupRho.data(), bands);
+  grouped.Restrict(source.data(), groupSource.data(), bands);
+  return SolveRadiosity(grouped, groupRho, groupSource, bands, options, {}, stage);
+}
+
+} // namespace
+
+ExchangeOptions RadiosityContext::Exchange() const
+{
+  ExchangeOptions o;
+  o.RelativeTolerance = this->Tolerance;
+  o.Occlusion = this->Options.Occlusion;
+  o.MemoryLimit = this->Memory;
+  o.Threads = this->Options.Threads;
+  o.Seed = this->Options.Seed;
+  return o;
+}
+
+ExchangeOptions RadiosityContext::Sight() const
+{
+  ExchangeOptions o = this->Exchange();
+  o.Occlusion = o.Occlusion && !this->Convex;
+  return o;
+}
+
+DirectOptions RadiosityContext::Direct(double secondsLeft) const
+{
+  DirectOptions o;
+  o.RelativeTolerance = 0.5 * this->Options.RelativeTolerance;
+  o.AbsoluteTolerance = 0.5 * this->Options.AbsoluteTolerance;
+  o.SecondsLeft = this->Options.TimeBudget > 0.0 ? std::max(1e-3, 0.5 * secondsLeft) : 0.0;
+  o.Occlusion = this->Options.Occlusion;
+  o.SpotShape = this->Options.SpotShape;
+  o.Attenuation = this->Options.Attenuation;
+  o.Threads = this->Options.Threads;
+  return o;
+}
+
+RadiosityLevel::RadiosityLevel(const RadiosityContext& context, ElementSet set)
+  : Elements(std::move(set))
+  , Optics(context.Geometry, Elements, context.Options.Emission)
+{
+  const std::size_t values = this->Elements.Size() * context.Bands;
+  for (Values* v :
+    { &this->First, &this->FirstError, &this->Leaving, &this->Irradiance, &this->DirectError,
+      &this->FormFactorError, &this->VisibilityError, &this->Discretisation, &this->SolverError })
+  {
+    v->assign(values, 0.0);
+  }
+  if (context.Options.Emission)
+  {
+    this->Emitters =
+      SmallEmitters(context.Geometry, this->Elements, context.Options.BackFaces, EmitterPairs);
+  }
+}
+
+void RadiosityLevel::IlluminateByLights(
+  const RadiosityContext& context, double secondsLeft, const StageProgress& stage)
+{
+  DirectResult direct = ComputeDirectIrradiance(context.Geometry, context.Occluders,
+    this->Elements.GetPatches(), context.Direct(secondsLeft), stage);
+  this->First = std::move(direct.Irradiance);
+  this->FirstError = std::move(direct.Error);
+  this->Irradiance = this->First;
+  this->DirectError = this->FirstError;
+}
+
+void RadiosityLevel::IlluminateByEmitters(
+  const RadiosityContext& context, const StageProgress& stage)
+{
+  if (this->Emitters.Empty())
+  {
+    return;
+  }
+  const EmitterResult e = ComputeEmitterIrradiance(
+    context.Occluders, this->Elements.GetPatches(), this->Emitters, context.Sight(), stage);
+  for (std::size_t k = 0; k < this->First.size(); ++k)
+  {
+    this->First[k] += e.Irradiance[k];
+    this->FirstError[k] =
+      std::hypot(this->FirstError[k], DenseCoverage * e.VisibilityError[k]) + e.GeometryError[k];
+  }
+  this->Irradiance = this->First;
+  this->DirectError = this->FirstError;
+}
+
+void RadiosityLevel::Solve(
+  const RadiosityContext& context, bool discretise, const StageProgress& stage)
+{
+  const std::size_t n = this->Elements.Size();
+  const std::size_t values = n * context.Bands;
+  const int bands = static_cast<int>(context.Bands);
+  const bool perCell = context.Options.Refinement == RefinementMode::Off;
+  Values source(values), gathered(values), rho = this->Optics.Reflectance;
+  if (!context.Options.Interreflection)
+  {
+    std::fill(rho.begin(), rho.end(), 0.0);
+  }
+  for (std::size_t k = 0; k < values; ++k)
+  {
+    // Without interreflection only what is emitted travels on.
+    source[k] = rho[k] * this->First[k] + (this->Emitters.Empty() ? this->Optics.Exitance[k] : 0.0);
+  }
+
+  SolveOptions options;
+  options.Tolerance = std::clamp(1e-3 * context.Options.RelativeTolerance, 1e-9, 1e-5);
+  // A second solve of the same elements begins where the first ended.
+  const Values guess = this->Leaving;
+  if (!this->InverseBound.empty())
+  {
+    options.InverseBound = &this->InverseBound;
+    options.Guess = perCell ? nullptr : &guess;
+  }
+  SolveResult r;
+  if (perCell)
+  {
+    std::size_t count = 0;
+    const std::vector<std::int32_t> group = this->Elements.CellGroups(count);
+    const GroupedOperator grouped(*this->F, group, count);
+    r = SolveGrouped(grouped, rho, source, bands, options, stage);
+    grouped.Prolong(r.Radiosity.data(), this->Leaving.data(), bands);
+    grouped.Prolong(r.Error.data(), this->SolverError.data(), bands);
+    this->F->Apply(this->Leaving.data(), gathered.data(), bands);
+  }
+  else
+  {
+    std::vector<std::int32_t> cells(n);
+    for (std::size_t e = 0; e < n; ++e)
+    {
+      cells[e] = this->Elements.GetPatches()[e].Cell;
+    }
+    r = SolveRadiosity(*this->F, rho, source, bands, options, cells, stage);
+    this->Leaving = std::move(r.Radiosity);
+    this->SolverError = std::move(r.Error);
+    gathered = std::move(r.Irradiance);
+  }
+  this->Iterations += r.Iterations;
+  if (this->InverseBound.empty())
+  {
+    this->InverseBound = std::move(r.InverseBound);
+  }
+  for (std::size_t k = 0; k < values; ++k)
+  {
+    this->Irradiance[k] = this->First[k] + gathered[k];
+  }
+
+  // What the operator does not know, given what leaves.
+  this->F->ApplyError(
+    this->Leaving.data(), this->FormFactorError.data(), this->VisibilityError.data(), bands);
+  const double coverage = this->Carlo ? CarloCoverage : DenseCoverage;
+  for (double& v : this->VisibilityError)
+  {
+    v *= coverage;
+  }
+
+  // Errors of direct light travel on as light does.
+  Values carried(values), arrived(values);
+  for (std::size_t k = 0; k < values; ++k)
+  {
+    carried[k] = rho[k] * this->FirstError[k];
+  }
+  this->F->Apply(carried.data(), arrived.data(), bands);
+  for (std::size_t k = 0; k < values; ++k)
+  {
+    this->DirectError[k] = this->FirstError[k] + arrived[k];
+  }
+  if (discretise)
+  {
+    this->Discretise(context, rho, source, gathered, stage);
+  }
+}
+
+/// What constant elements change, from what merging them changes. The differences of gathered light
+/// are taken over the same pairs or rays; what remains of their sampling is taken off, since
+/// VisibilityError has it already.
+void RadiosityLevel::Discretise(const RadiosityContext& context, const Values& rho,
+  const Values& source, const Values& gathered, const StageProgress& stage)
+{
+  const std::size_t n = this->Elements.Size();
+  const std::size_t nb = context.Bands;
+  const std::size_t values = n * nb;
+  const int bands = static_cast<int>(nb);
+  // A difference of some per cent needs no more digits than that.
+  const Values none;
+  SolveOptions rough;
+  rough.Tolerance = std::clamp(0.01 * context.Options.RelativeTolerance, 1e-8, 1e-4);
+  rough.InverseBound = &none;
+
+  if (context.Options.Refinement == RefinementMode::Off && this->Elements.Depth(0) > 0)
+  {
+    // The elements are finer than the cells: the solve without that restriction.
+    const SolveResult free = SolveRadiosity(*this->F, rho, source, bands, rough, {}, stage);
+    for (std::size_t k = 0; k < values; ++k)
+    {
+      this->Discretisation[k] = 1.5 * (free.Irradiance[k] - gathered[k]);
+    }
+    return;
+  }
+
+  // Merged by fours and by sixteens: what the first changes, and how much less that is than what
+  // the second does, tell what elements of no size would change.
+  std::array<Values, 2> change;
+  Values finer = this->Leaving, arrived(values), noise(values), unused(values);
+  for (int levels = 1; levels <= 2; ++levels)
+  {
+    std::size_t count = 0;
+    std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, levels, count);
+    const GroupedOperator grouped(*this->F, std::move(group), count);
+    const SolveResult coarse = SolveGrouped(grouped, rho, source, bands, rough, stage);
+    Values merged(values);
+    grouped.Prolong(coarse.Radiosity.data(), merged.data(), bands);
+    for (std::size_t k = 0; k < values; ++k)
+    {
+      finer[k] -= merged[k];
+    }
+    this->F->Apply(finer.data(), arrived.data(), bands);
+    this->F->ApplyError(finer.data(), unused.data(), noise.data(), bands);
+    Values& d = change[static_cast<std::size_t>(levels - 1)];
+    d.resize(values);
+    for (std::size_t k = 0; k < values; ++k)
+    {
+      const double square = arrived[k] * arrived[k] - noise[k] * noise[k];
+      d[k] = square > 0.0 ? std::copysign(std::sqrt(square), arrived[k]) : 0.0;
+    }
+    finer = std::move(merged);
+  }
+  for (std::size_t b = 0; b < nb; ++b)
+  {
+    double fine = 0.0, coarse = 0.0;
+    for (std::size_t e = 0; e < n; ++e)
+    {
+      const double a = this->Elements.GetAreas()[e];
+      fine += a * std::abs(change[0][e * nb + b]);
+      coarse += a * std::abs(change[1][e * nb + b]);
+    }
+    // Each division shrinks the change by `ratio`: the changes still to come sum to 1/(ratio - 1).
+    const double ratio = fine > 0.0 ? std::clamp(coarse / fine, 1.5, 4.0) : 4.0;
+    for (std::size_t k = b; k < values; k += nb)
+    {
+      this->Discretisation[k] = DiscretisationSafety / (ratio - 1.0) * change[0][k];
+    }
+  }
+}
+
+} // namespace radiometry

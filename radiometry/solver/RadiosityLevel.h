@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/formfactor/ElementSet.h"
+#include "radiometry/formfactor/EmitterIrradiance.h"
+#include "radiometry/formfactor/FormFactorOperator.h"
+#include "radiometry/formfactor/MonteCarloOperator.h"
+#include "radiometry/irradiance/DirectIrradiance.h"
+#include "radiometry/solver/ElementOptics.h"
+#include "radiometry/solver/RadiositySimulation.h"
+
+#include <memory>
+#include <vector>
+
+namespace radiometry
+{
+
+/// What every step of a radiosity run knows.
+struct RadiosityContext
+{
+  const Scene& Geometry;
+  const OcclusionScene& Occluders;
+  RadiosityOptions Options;
+  std::size_t Bands = 1;
+  std::size_t Memory = 0;  // bytes
+  bool Convex = false;     // nothing can hide anything
+  double Tolerance = 0.01; // of the exchange at the present step, relative
+
+  ExchangeOptions Exchange() const;
+  /// Exchange with emitters and points, for which rays are of no use in a convex scene.
+  ExchangeOptions Sight() const;
+  DirectOptions Direct(double secondsLeft) const;
+};
+
+/// Half-widths that cover 95 %: of a normal error, and of one estimated from eight batches by rays
+/// that end where the estimate happens to be low.
+inline constexpr double DenseCoverage = 2.0;
+inline constexpr double CarloCoverage = 2.7;
+
+/// One discretisation of the scene with all that was computed on it. Values: elements x bands.
+struct RadiosityLevel
+{
+  using Values = std::vector<double>;
+
+  RadiosityLevel(const RadiosityContext& context, ElementSet set);
+
+  /// Direct light, and emitters that are few and small as lights.
+  void IlluminateByLights(
+    const RadiosityContext& context, double secondsLeft, const StageProgress& stage);
+  void IlluminateByEmitters(const RadiosityContext& context, const StageProgress& stage);
+
+  /// Radiosity and irradiance by the operator, with their errors. `discretise`: estimate the error
+  /// of constant elements too (else the last estimate stays). May be called again when the operator
+  /// has got finer.
+  void Solve(const RadiosityContext& context, bool discretise, const StageProgress& stage);
+
+  ElementSet Elements;
+  ElementOptics Optics;
+  EmitterSet Emitters; // treated as lights; empty: emission goes through the operator
+  Values First;        // irradiance by lights and such emitters
+  Values FirstError;
+  Values Leaving;     // radiosity but for what Emitters treat
+  Values Irradiance;  // all
+  Values DirectError; // FirstError and what it adds by reflection
+  Values FormFactorError, VisibilityError, Discretisation, SolverError;
+  std::unique_ptr<FormFactorOperator> F;
+  MonteCarloOperator* Carlo = nullptr; // F, when it is one
+  int Iterations = 0;
+  Values InverseBound; // of the system, from its first solve
+
+private:
+  void Discretise(const RadiosityContext& context, const Values& rho, const Values& source,
+    const Values& gathered, const StageProgress& stage);
+};
+
+} // namespace radiometry
