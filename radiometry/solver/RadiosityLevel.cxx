@@ -18,6 +18,8 @@ using Values = RadiosityLevel::Values;
 
 constexpr std::size_t EmitterPairs = 4000000;
 constexpr double DiscretisationSafety = 2.0;
+/// Share of all first light, times the tolerance, that an element may put in the wrong place.
+constexpr double UnevenShare = 3e-3;
 
 /// The system solved with one unknown for each group of elements.
 SolveResult SolveGrouped(const GroupedOperator& grouped, const Values& rho, const Values& source,
@@ -111,6 +113,61 @@ void RadiosityLevel::IlluminateByEmitters(
   this->DirectError = this->FirstError;
 }
 
+std::vector<std::uint8_t> RadiosityLevel::Uneven(
+  const RadiosityContext& context, std::size_t most) const
+{
+  const std::size_t n = this->Elements.Size();
+  const std::size_t nb = context.Bands;
+  const std::vector<double>& areas = this->Elements.GetAreas();
+  std::size_t count = 0;
+  const std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, 1, count);
+  Values mean(count * nb, 0.0), groupArea(count, 0.0), flux(nb, 0.0);
+  double area = 0.0;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    const auto g = static_cast<std::size_t>(group[e]);
+    groupArea[g] += areas[e];
+    area += areas[e];
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      const double reflected =
+        areas[e] * this->Optics.Reflectance[e * nb + b] * this->First[e * nb + b];
+      mean[g * nb + b] += reflected;
+      flux[b] += reflected;
+    }
+  }
+  std::vector<std::pair<double, std::size_t>> uneven;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    if (areas[e] < 1e-6 * area)
+    {
+      continue;
+    }
+    const auto g = static_cast<std::size_t>(group[e]);
+    double worst = 0.0;
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      const double reflected = this->Optics.Reflectance[e * nb + b] * this->First[e * nb + b];
+      if (flux[b] > 0.0)
+      {
+        worst = std::max(
+          worst, areas[e] * std::abs(reflected - mean[g * nb + b] / groupArea[g]) / flux[b]);
+      }
+    }
+    if (worst > UnevenShare * context.Options.RelativeTolerance)
+    {
+      uneven.emplace_back(-worst, e);
+    }
+  }
+  std::sort(uneven.begin(), uneven.end());
+  std::vector<std::uint8_t> marked(n, 0);
+  for (std::size_t k = 0; k < std::min(most, uneven.size()); ++k)
+  {
+    marked[uneven[k].second] = 1;
+  }
+  return marked;
+}
+
 void RadiosityLevel::Solve(
   const RadiosityContext& context, bool discretise, const StageProgress& stage)
 {
@@ -174,6 +231,10 @@ void RadiosityLevel::Solve(
   // What the operator does not know, given what leaves.
   this->F->ApplyError(
     this->Leaving.data(), this->FormFactorError.data(), this->VisibilityError.data(), bands);
+  if (this->Carlo)
+  {
+    this->PoolSampling(context);
+  }
   const double coverage = this->Carlo ? CarloCoverage : DenseCoverage;
   for (double& v : this->VisibilityError)
   {
@@ -194,6 +255,37 @@ void RadiosityLevel::Solve(
   if (discretise)
   {
     this->Discretise(context, rho, source, gathered, stage);
+  }
+}
+
+/// Rays that all missed a small bright place know nothing of it and seem sure of themselves: each
+/// element's spread of eight batches is averaged with that of its neighbourhood.
+void RadiosityLevel::PoolSampling(const RadiosityContext& context)
+{
+  const std::size_t nb = context.Bands;
+  std::size_t count = 0;
+  const std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, 2, count);
+  Values square(count * nb, 0.0), rays(count, 0.0);
+  for (std::size_t e = 0; e < group.size(); ++e)
+  {
+    // Brought to the variance of one ray: elements differ in how many they have.
+    const auto g = static_cast<std::size_t>(group[e]);
+    rays[g] += 1.0;
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      const double v = this->VisibilityError[e * nb + b];
+      square[g * nb + b] += v * v * this->Carlo->Rays(e);
+    }
+  }
+  for (std::size_t e = 0; e < group.size(); ++e)
+  {
+    const auto g = static_cast<std::size_t>(group[e]);
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      double& v = this->VisibilityError[e * nb + b];
+      const double pooled = square[g * nb + b] / rays[g] / this->Carlo->Rays(e);
+      v = std::sqrt(0.5 * (v * v + pooled));
+    }
   }
 }
 

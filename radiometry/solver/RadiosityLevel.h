@@ -49,6 +49,11 @@ struct RadiosityLevel
     const RadiosityContext& context, double secondsLeft, const StageProgress& stage);
   void IlluminateByEmitters(const RadiosityContext& context, const StageProgress& stage);
 
+  /// Elements whose first light differs from their neighbours' by more flux than the tolerance
+  /// allows (a spot's edge, a shadow, light caught in a gap): worth dividing before anything
+  /// else. The most uneven first, at most `most`.
+  std::vector<std::uint8_t> Uneven(const RadiosityContext& context, std::size_t most) const;
+
   /// Radiosity and irradiance by the operator, with their errors. `discretise`: estimate the error
   /// of constant elements too (else the last estimate stays). May be called again when the operator
   /// has got finer.
@@ -69,6 +74,7 @@ struct RadiosityLevel
   Values InverseBound; // of the system, from its first solve
 
 private:
+  void PoolSampling(const RadiosityContext& context);
   void Discretise(const RadiosityContext& context, const Values& rho, const Values& source,
     const Values& gathered, const StageProgress& stage);
 };

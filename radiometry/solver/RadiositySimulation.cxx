@@ -20,6 +20,7 @@ namespace
 constexpr std::size_t DefaultMemory = std::size_t(2) << 30;
 constexpr int FirstRays = 64;
 constexpr double FirstTolerance = 0.03;
+constexpr int UnevenRounds = 5;
 constexpr int MostRays = 16384;
 
 const char* const MetOutcome = "the tolerance is met on 95 % of the area";
@@ -299,9 +300,32 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     return p;
   };
   this->Context.Tolerance = this->Context.Options.RelativeTolerance;
-  auto level = std::make_unique<RadiosityLevel>(this->Context, elements);
-  this->Illuminate(*level, part(0.0, 0.2, "direct light"));
+  // Where first light is uneven, finer.
+  std::unique_ptr<RadiosityLevel> level;
+  const std::size_t coarse = elements.Size();
+  for (int round = 0;; ++round)
+  {
+    const double at = 0.2 * (1.0 - std::pow(0.5, round));
+    level = std::make_unique<RadiosityLevel>(this->Context, elements);
+    this->Illuminate(*level, part(at, 0.5 * (at + 0.2), "direct light"));
+    const std::size_t n = elements.Size();
+    const std::size_t most = (std::max<std::size_t>(coarse, 8000) + coarse - n) / 3 / 2;
+    if (this->Context.Options.Refinement == RefinementMode::Off || round == UnevenRounds ||
+      n >= std::max<std::size_t>(coarse, 8000) + coarse || this->Left() < 0.0)
+    {
+      break;
+    }
+    const std::vector<std::uint8_t> uneven = level->Uneven(this->Context, most);
+    if (std::none_of(uneven.begin(), uneven.end(), [](std::uint8_t m) { return m != 0; }))
+    {
+      break;
+    }
+    elements = elements.Divided(uneven);
+  }
   const std::size_t n = level->Elements.Size();
+  std::size_t neighbourhoods = 0;
+  const std::vector<std::int32_t> neighbourhood =
+    level->Elements.Groups(this->Context.Geometry, 3, neighbourhoods);
   double raySeconds = 0.0;
   this->Timed("rays", [&] {
     const double begin = this->Result.Convergence.Elapsed();
@@ -332,8 +356,9 @@ void RadiositySimulation::Internals::RunMonteCarlo(
       this->Result.Outcome = MetOutcome;
       break;
     }
-    // More rays only where rays are what limits.
-    std::int64_t more = 0;
+    // More rays where rays are what limits: by neighbourhoods, for to ask each element by itself
+    // would end with those whose rays happen to have missed what is bright.
+    std::vector<double> wanting(neighbourhoods, 0.0), whole(neighbourhoods, 0.0);
     for (std::size_t e = 0; e < n; ++e)
     {
       bool limits = false;
@@ -344,7 +369,15 @@ void RadiositySimulation::Internals::RunMonteCarlo(
           level->VisibilityError[k] >
             0.3 * (std::abs(level->Discretisation[k]) + level->DirectError[k]);
       }
-      unfinished[e] = unfinished[e] && limits && level->Carlo->Rays(e) < MostRays;
+      const auto g = static_cast<std::size_t>(neighbourhood[e]);
+      whole[g] += level->Elements.GetAreas()[e];
+      wanting[g] += unfinished[e] && limits ? level->Elements.GetAreas()[e] : 0.0;
+    }
+    std::int64_t more = 0;
+    for (std::size_t e = 0; e < n; ++e)
+    {
+      const auto g = static_cast<std::size_t>(neighbourhood[e]);
+      unfinished[e] = wanting[g] > 0.1 * whole[g] && level->Carlo->Rays(e) < MostRays;
       more += unfinished[e] ? level->Carlo->Rays(e) : 0;
     }
     if (more == 0)
