@@ -2,6 +2,7 @@
 #include "radiometry/solver/RadiosityLevel.h"
 
 #include "radiometry/formfactor/GroupedOperator.h"
+#include "radiometry/geometry/Sampling.h"
 #include "radiometry/solver/RadiositySolver.h"
 
 #include <algorithm>
@@ -164,6 +165,62 @@ std::vector<std::uint8_t> RadiosityLevel::Uneven(
   for (std::size_t k = 0; k < std::min(most, uneven.size()); ++k)
   {
     marked[uneven[k].second] = 1;
+  }
+  return marked;
+}
+
+std::vector<std::uint8_t> RadiosityLevel::Crowded(
+  const RadiosityContext& context, std::size_t most, const StageProgress& stage) const
+{
+  constexpr std::uint32_t rays = 16;
+  const std::size_t n = this->Elements.Size();
+  const std::vector<double>& areas = this->Elements.GetAreas();
+  std::vector<std::int32_t> near(n * rays, -1);
+  ParallelFor(
+    n, context.Options.Threads, stage,
+    [&](std::size_t i) {
+      const Patch& patch = this->Elements.GetPatches()[i];
+      const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
+      const SobolSequence sequence(Hash64(Hash64(context.Options.Seed, 0x6e656172ull), i));
+      for (std::uint32_t k = 0; k < rays; ++k)
+      {
+        const auto u = sequence(k);
+        const SurfaceHit hit =
+          context.Occluders.Closest({ TrianglePoint(patch.Corners, u[0], u[1]), patch.Triangle },
+            CosineDirection(normal, u[2], u[3]));
+        const std::int32_t met = this->Elements.Find(hit.Triangle, hit.Front, hit.U, hit.V);
+        if (met >= 0)
+        {
+          const double area = areas[static_cast<std::size_t>(met)];
+          if (area > 3.0 * areas[i] && hit.Distance * hit.Distance < 0.5 * area)
+          {
+            near[i * rays + k] = met;
+          }
+        }
+      }
+    },
+    2e-5);
+  std::vector<std::int32_t> seen(n, 0);
+  for (const std::int32_t met : near)
+  {
+    if (met >= 0)
+    {
+      ++seen[static_cast<std::size_t>(met)];
+    }
+  }
+  std::vector<std::pair<std::int32_t, std::size_t>> crowded;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    if (seen[e] > 0)
+    {
+      crowded.emplace_back(-seen[e], e);
+    }
+  }
+  std::sort(crowded.begin(), crowded.end());
+  std::vector<std::uint8_t> marked(n, 0);
+  for (std::size_t k = 0; k < std::min(most, crowded.size()); ++k)
+  {
+    marked[crowded[k].second] = 1;
   }
   return marked;
 }

@@ -54,6 +54,12 @@ struct RadiosityLevel
   /// else. The most uneven first, at most `most`.
   std::vector<std::uint8_t> Uneven(const RadiosityContext& context, std::size_t most) const;
 
+  /// Elements that much smaller ones see from nearer than their own size (things that stand on a
+  /// table): constant radiosity would put light where the small ones keep it away. The most
+  /// crowded first, at most `most`.
+  std::vector<std::uint8_t> Crowded(
+    const RadiosityContext& context, std::size_t most, const StageProgress& stage) const;
+
   /// Radiosity and irradiance by the operator, with their errors. `discretise`: estimate the error
   /// of constant elements too (else the last estimate stays). May be called again when the operator
   /// has got finer.

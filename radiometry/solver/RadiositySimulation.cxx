@@ -300,27 +300,35 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     return p;
   };
   this->Context.Tolerance = this->Context.Options.RelativeTolerance;
-  // Where first light is uneven, finer.
+  // Finer where first light is uneven, and where small things stand close to large elements.
   std::unique_ptr<RadiosityLevel> level;
-  const std::size_t coarse = elements.Size();
+  const std::size_t room = 2 * std::max<std::size_t>(elements.Size(), 8000);
   for (int round = 0;; ++round)
   {
     const double at = 0.2 * (1.0 - std::pow(0.5, round));
     level = std::make_unique<RadiosityLevel>(this->Context, elements);
     this->Illuminate(*level, part(at, 0.5 * (at + 0.2), "direct light"));
-    const std::size_t n = elements.Size();
-    const std::size_t most = (std::max<std::size_t>(coarse, 8000) + coarse - n) / 3 / 2;
+    const std::size_t most = room > elements.Size() ? (room - elements.Size()) / 12 : 0;
     if (this->Context.Options.Refinement == RefinementMode::Off || round == UnevenRounds ||
-      n >= std::max<std::size_t>(coarse, 8000) + coarse || this->Left() < 0.0)
+      most == 0 || this->Left() < 0.0)
     {
       break;
     }
-    const std::vector<std::uint8_t> uneven = level->Uneven(this->Context, most);
-    if (std::none_of(uneven.begin(), uneven.end(), [](std::uint8_t m) { return m != 0; }))
+    std::vector<std::uint8_t> finer = level->Uneven(this->Context, most);
+    this->Timed("refinement", [&] {
+      const double middle = 0.5 * (at + 0.2);
+      const std::vector<std::uint8_t> crowded =
+        level->Crowded(this->Context, most, part(middle, middle, "refinement"));
+      for (std::size_t e = 0; e < finer.size(); ++e)
+      {
+        finer[e] = finer[e] || crowded[e];
+      }
+    });
+    if (std::none_of(finer.begin(), finer.end(), [](std::uint8_t m) { return m != 0; }))
     {
       break;
     }
-    elements = elements.Divided(uneven);
+    elements = elements.Divided(finer);
   }
   const std::size_t n = level->Elements.Size();
   std::size_t neighbourhoods = 0;
