@@ -368,7 +368,7 @@ void RadiosityLevel::Discretise(const RadiosityContext& context, const Values& r
     const SolveResult free = SolveRadiosity(*this->F, rho, source, bands, rough, {}, stage);
     for (std::size_t k = 0; k < values; ++k)
     {
-      this->Discretisation[k] = 1.5 * (free.Irradiance[k] - gathered[k]);
+      this->Discretisation[k] = 2.0 * (free.Irradiance[k] - gathered[k]);
     }
     return;
   }
