@@ -143,11 +143,11 @@ def _legend(renderer, table, scale, left, bottom, right, top):
     renderer.AddActor2D(_rectangles(ticks, [[255.0 * c for c in INK]] * len(ticks)))
 
 
-def write(path, field, outline, scale, heading, notes, lights, camera, size):
+def write(path, field, outline, scale, heading, notes, lights, emitters, camera, size):
     """Draws `field` (polydata with the point array Quantity) and writes the PNG.
 
     outline: the surface whose creases are drawn; heading: quantity and unit; notes: lines under
-    the legend; lights: the light polydata.
+    the legend; lights: the light polydata; emitters: the surfaces that emit, or None.
     """
     pixels = [side * OVERSAMPLING for side in size]
     window = vtkRenderWindow()
@@ -179,6 +179,7 @@ def write(path, field, outline, scale, heading, notes, lights, camera, size):
     camera.apply(main, aspect)
     above.SetActiveCamera(main.GetActiveCamera())
     legend = glyphs.add(above, lights, field.GetBounds(), camera, aspect)
+    legend += glyphs.outline(above, emitters, 2.5 * OVERSAMPLING)
     main.ResetCameraClippingRange()
 
     width, height = pixels[0] * LEGEND_SHARE, pixels[1]

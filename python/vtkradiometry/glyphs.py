@@ -7,6 +7,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkFiltersSources import vtkArrowSource, vtkConeSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
@@ -17,7 +18,7 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 COLOUR = (0.90, 0.23, 0.10)
-POINT, SPOT, DIRECTIONAL = 0, 1, 2
+POINT, SPOT, DIRECTIONAL, EMITTER = 0, 1, 2, 3
 WORDS = {POINT: "point light", SPOT: "spot light", DIRECTIONAL: "directional light"}
 
 
@@ -110,23 +111,47 @@ def add(renderer, lights, bounds, camera, aspect):
             for kind, count in sorted(counts.items())]
 
 
+def outline(renderer, emitters, width):
+    """Draws the outline of the emitting surfaces and returns their line of the legend."""
+    if emitters is None or emitters.GetNumberOfCells() == 0:
+        return []
+    edges = vtkFeatureEdges()
+    edges.SetInputData(emitters)
+    edges.BoundaryEdgesOn()
+    edges.FeatureEdgesOff()
+    edges.NonManifoldEdgesOff()
+    edges.ManifoldEdgesOff()
+    edges.ColoringOff()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(edges.GetOutputPort())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(COLOUR)
+    actor.GetProperty().SetLineWidth(width)
+    actor.GetProperty().LightingOff()
+    renderer.AddActor(actor)
+    return [(EMITTER, "emitting surface")]
+
+
 def key(kind, x, y, radius):
     """The flat sign of a kind of light for the legend, around pixel (x, y)."""
     if kind == SPOT:
-        outline = [(0.0, 1.0), (0.8, -0.9), (-0.8, -0.9)]
+        corners = [(0.0, 1.0), (0.8, -0.9), (-0.8, -0.9)]
     elif kind == DIRECTIONAL:
-        outline = [(-1.0, 0.2), (0.2, 0.2), (0.2, 0.65), (1.0, 0.0), (0.2, -0.65), (0.2, -0.2),
+        corners = [(-1.0, 0.2), (0.2, 0.2), (0.2, 0.65), (1.0, 0.0), (0.2, -0.65), (0.2, -0.2),
                    (-1.0, -0.2)]
+    elif kind == EMITTER:
+        corners = [(-0.9, -0.6), (0.9, -0.6), (0.9, 0.6), (-0.9, 0.6)]
     else:
         steps = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
-        outline = [(0.8 * math.cos(a), 0.8 * math.sin(a)) for a in steps]
+        corners = [(0.8 * math.cos(a), 0.8 * math.sin(a)) for a in steps]
     places = vtkPoints()
     fan = vtkCellArray()
     places.InsertNextPoint(x, y, 0.0)
-    for dx, dy in outline:
+    for dx, dy in corners:
         places.InsertNextPoint(x + radius * dx, y + radius * dy, 0.0)
-    for k in range(len(outline)):
-        fan.InsertNextCell(3, [0, 1 + k, 1 + (k + 1) % len(outline)])
+    for k in range(len(corners)):
+        fan.InsertNextCell(3, [0, 1 + k, 1 + (k + 1) % len(corners)])
     flat = vtkPolyData()
     flat.SetPoints(places)
     flat.SetPolys(fan)

@@ -91,6 +91,7 @@ class View:
         self.smooth = mesh.SmoothSurface(surface)
         drawn, back = view_mesh.sides(surface, scene.camera,
                                       scene.two_sided(surface, options.two_sided))
+        self.drawn = drawn
         # falsecolor.png is narrower, so it shows more above and below.
         size = options.size[0], round(options.size[1] / (1.0 - falsecolor.LEGEND_SHARE))
         seen = picture.seen_cells(view_mesh.coarse_polydata(surface, drawn), scene.camera, size)
@@ -140,8 +141,11 @@ def _false_colour(output, scene, view, surface, options, summary):
              f"estimated error {quantities.format_percent(summary['error'])} of it"]
     where = output.path("falsecolor.png", f"{heading.lower()} in {unit} as false colour, with "
                         "legend, iso-lines and lights")
+    emitted = mesh.cell_array(surface, "EmittedExitance")
+    emitters = None if emitted is None else view_mesh.coarse_polydata(
+        surface, view.drawn & (emitted > 0.0).any(axis=1))
     falsecolor.write(where, field, view.smooth.polydata({}), scale, (heading, unit), notes,
-                     scene.lights, scene.camera, options.size)
+                     scene.lights, emitters, scene.camera, options.size)
     return {"falsecolor.png": f"{heading} in {unit}, {'logarithmic' if scale.log else 'linear'} "
             f"from {format_number(scale.low)} to {format_number(scale.high)}",
             "iso-lines": [float(level) for level in scale.levels]}
