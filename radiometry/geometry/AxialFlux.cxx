@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/geometry/AxialFlux.h"
 
+#include "radiometry/geometry/Quadrature.h"
 #include "radiometry/geometry/SolidAngle.h"
-#include "radiometry/geometry/TriangleRule.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace radiometry
@@ -15,23 +14,16 @@ namespace
 
 const double Pi = std::acos(-1.0);
 
-/// Ten points of Gauss-Legendre on [-1, 1] (half of them; the rule is symmetric).
-constexpr std::array<double, 5> GaussX{ 0.1488743389816312108848260, 0.4333953941292471907992659,
-  0.6794095682990244062343274, 0.8650633666889845107320967, 0.9739065285171717200779640 };
-constexpr std::array<double, 5> GaussW{ 0.2955242247147528701738930, 0.2692667193099963550912269,
-  0.2190863625159820439955349, 0.1494513491505805931457763, 0.0666713443086881375935688 };
-
 template <typename Function>
 double Gauss(double a, double b, const Function& f)
 {
-  const double middle = 0.5 * (a + b);
-  const double half = 0.5 * (b - a);
+  static const LineRule& rule = GaussLegendre(10);
   double sum = 0.0;
-  for (std::size_t k = 0; k < GaussX.size(); ++k)
+  for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
   {
-    sum += GaussW[k] * (f(middle - half * GaussX[k]) + f(middle + half * GaussX[k]));
+    sum += rule.Weights[k] * f(a + (b - a) * rule.Nodes[k]);
   }
-  return half * sum;
+  return (b - a) * sum;
 }
 
 /// int of x^(n-1) from c to 1, from the versine 1 - c: exact near the axis.
@@ -101,6 +93,7 @@ double AzimuthSwept(const Vec3& from, const Vec3& to, const Vec3& axis)
 double SmallPolygon(const Vec3* polygon, std::size_t count, const Vec3& axis,
   const AxialDistribution& distribution)
 {
+  const TriangleRule& rule = TriangleRuleOfDegree(7);
   double sum = 0.0;
   for (std::size_t k = 2; k < count; ++k)
   {
@@ -109,9 +102,9 @@ double SmallPolygon(const Vec3* polygon, std::size_t count, const Vec3& axis,
     const Vec3& c = polygon[k];
     double weighted = 0.0;
     double weights = 0.0;
-    for (const TrianglePoint& q : DegreeSevenRule)
+    for (const TriangleRule::Node& q : rule.Nodes)
     {
-      const Vec3 p = q.A * a + q.B * b + q.C * c;
+      const Vec3 p = q.B0 * a + q.B1 * b + q.B2 * c;
       const double l = Length(p);
       const double density = q.Weight / (l * l * l);
       weighted += density * distribution.Intensity(Dot(p, axis) / l);

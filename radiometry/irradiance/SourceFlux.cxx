@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/SourceFlux.h"
 
+#include "radiometry/geometry/Quadrature.h"
 #include "radiometry/geometry/SolidAngle.h"
-#include "radiometry/geometry/TriangleRule.h"
 
 #include <cmath>
 
@@ -100,9 +100,9 @@ double SourceFlux::Weighted(const Vec3& a, const Vec3& b, const Vec3& c) const
   const double omega = SolidAngle(a, b, c);
   double weighted = 0.0;
   double weights = 0.0;
-  for (const TrianglePoint& q : DegreeSevenRule)
+  for (const TriangleRule::Node& q : TriangleRuleOfDegree(7).Nodes)
   {
-    const Vec3 p = q.A * a + q.B * b + q.C * c;
+    const Vec3 p = q.B0 * a + q.B1 * b + q.B2 * c;
     const double r = Length(p);
     const double density = q.Weight / (r * r * r);
     weighted += density * this->Distribution.Intensity(Dot(p, this->Source.Direction) / r) * r *

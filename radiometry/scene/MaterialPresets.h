@@ -15,8 +15,8 @@ struct MaterialPreset
 };
 
 /// The values of vtkSurfaceMaterialFilter's Preset, from 1. All are matt: no specular lobe.
-///   IES LM-83-12, 2.2.6: reflectances to assume for the surfaces of a room in daylight studies.
-///   Oke 1987: Boundary Layer Climates, 2nd ed., tables 1.1 and 8.1: ranges of albedo of natural and
+///   IES LM-83-12: reflectances to assume for the surfaces of a room in daylight studies.
+///   Oke 1987: Boundary Layer Climates, 2nd ed.: ranges of albedo of natural and
 ///   urban surfaces; the middle of the range is taken, the same in each band.
 ///   Cornell: measured spectra of the Cornell box, reduced to three bands under its own lamp by
 ///   examples/cornell-box/make_cornell_box.py.
