@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/effects/EffectPlan.h"
 
+#include "radiometry/visibility/Convexity.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -8,8 +10,6 @@ namespace radiometry
 {
 namespace
 {
-
-constexpr std::size_t MostExamined = 4096;
 
 double Greatest(const std::vector<double>& values)
 {
@@ -57,38 +57,6 @@ const char* EffectName(Effect effect)
     "SpecularTransport", "Transmission", "BackFaces", "Emission", "Environment", "SpotShape",
     "Attenuation" };
   return names[static_cast<int>(effect)];
-}
-
-Convexity FindConvexity(const Scene& scene)
-{
-  if (scene.Triangles.size() > MostExamined || scene.Triangles.empty())
-  {
-    return Convexity::General;
-  }
-  double extent = 0.0;
-  for (const Vec3& p : scene.Points)
-  {
-    extent = std::max(extent, Length(p));
-  }
-  const double tolerance = 1e-12 * extent;
-  bool body = true;
-  bool room = true;
-  for (std::size_t t = 0; t < scene.Triangles.size() && (body || room); ++t)
-  {
-    const Triangle3 v = scene.TriangleAt(t);
-    const Vec3 n = Normalized(AreaNormal2(v));
-    for (const Vec3& p : scene.Points)
-    {
-      const double h = Dot(n, p - v[0]);
-      body = body && h <= tolerance;
-      room = room && h >= -tolerance;
-      if (!body && !room)
-      {
-        break;
-      }
-    }
-  }
-  return body ? Convexity::Body : (room ? Convexity::Room : Convexity::General);
 }
 
 EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,

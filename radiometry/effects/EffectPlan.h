@@ -84,14 +84,4 @@ private:
   std::vector<EffectDecision> Decisions;
 };
 
-/// How the triangles of a scene stand to each other.
-enum class Convexity
-{
-  General,
-  Body, // every point lies on or behind the plane of every triangle
-  Room  // every point lies on or before the plane of every triangle
-};
-/// O(triangles x points), with an early end; General, unexamined, above 4096 triangles.
-Convexity FindConvexity(const Scene& scene);
-
 } // namespace radiometry

@@ -5,6 +5,7 @@
 #include "radiometry/formfactor/SymmetricTiles.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/scene/InputError.h"
+#include "radiometry/visibility/Convexity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -365,7 +366,7 @@ DenseOperator::DenseOperator(const Scene& scene, const OcclusionScene& occluders
     (m.N <= 4096 || options.RelativeTolerance < 1e-4);
   m.Double ? m.Fine.Resize(m.N) : m.Coarse.Resize(m.N);
 
-  const bool occlusion = options.Occlusion && !IsConvex(scene);
+  const bool occlusion = options.Occlusion && FindConvexity(scene) == Convexity::General;
   const auto part = [&](double from, double to) {
     StageProgress p = stage;
     p.Begin = stage.Begin + from * (stage.End - stage.Begin);

@@ -100,35 +100,4 @@ PairVisibilityResult PairVisibility(const OcclusionScene& scene, const ExchangeP
   return result;
 }
 
-bool IsConvex(const Scene& scene)
-{
-  if (static_cast<double>(scene.Triangles.size()) * static_cast<double>(scene.Points.size()) > 1e9)
-  {
-    return false;
-  }
-  double extent = 0.0;
-  for (const Vec3& p : scene.Points)
-  {
-    extent = std::max({ extent, std::abs(p.x), std::abs(p.y), std::abs(p.z) });
-  }
-  const double rounding = 1e-12 * extent;
-  for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
-  {
-    const Triangle3 corners = scene.TriangleAt(t);
-    const Vec3 n = Normalized(AreaNormal2(corners));
-    bool above = false, below = false;
-    for (const Vec3& p : scene.Points)
-    {
-      const double height = Dot(n, p - corners[0]);
-      above = above || height > rounding;
-      below = below || height < -rounding;
-      if (above && below)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
 } // namespace radiometry

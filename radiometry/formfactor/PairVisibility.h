@@ -29,8 +29,4 @@ PairVisibilityResult PairVisibility(const OcclusionScene& scene, const ExchangeP
   std::int32_t triangleA, const ExchangePatch& b, std::int32_t triangleB, std::uint64_t key,
   int first, int most, double wanted);
 
-/// True when every triangle of the scene lies on the hull of all: then nothing hides anything.
-/// False also when that would cost too much to find out.
-bool IsConvex(const Scene& scene);
-
 } // namespace radiometry

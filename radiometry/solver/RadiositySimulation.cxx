@@ -2,11 +2,11 @@
 #include "radiometry/solver/RadiositySimulation.h"
 
 #include "radiometry/formfactor/DenseOperator.h"
-#include "radiometry/formfactor/PairVisibility.h"
 #include "radiometry/formfactor/PointGather.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/solver/RadiosityEvaluation.h"
 #include "radiometry/solver/RadiosityLevel.h"
+#include "radiometry/visibility/Convexity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ struct RadiositySimulation::Internals
   {
     this->Context.Bands = static_cast<std::size_t>(scene.Optics.Bands);
     this->Context.Memory = options.MemoryLimit ? options.MemoryLimit : DefaultMemory;
-    this->Context.Convex = IsConvex(scene);
+    this->Context.Convex = FindConvexity(scene) != Convexity::General;
   }
 
   double Left() const

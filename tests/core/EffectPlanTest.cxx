@@ -2,6 +2,7 @@
 #include "radiometry/effects/EffectPlan.h"
 
 #include "radiometry/irradiance/IrradianceSimulation.h"
+#include "radiometry/visibility/Convexity.h"
 #include "tests/core/TestScenes.h"
 
 #include <gtest/gtest.h>

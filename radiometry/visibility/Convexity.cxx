@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/visibility/Convexity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radiometry
+{
+
+Convexity FindConvexity(const Scene& scene)
+{
+  constexpr double most = 1e9;
+  if (scene.Triangles.empty() ||
+    static_cast<double>(scene.Triangles.size()) * static_cast<double>(scene.Points.size()) > most)
+  {
+    return Convexity::General;
+  }
+  double extent = 0.0;
+  for (const Vec3& p : scene.Points)
+  {
+    extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
+  }
+  const double rounding = 1e-12 * extent;
+  bool body = true;
+  bool room = true;
+  for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
+  {
+    const Triangle3 corners = scene.TriangleAt(t);
+    const Vec3 n = Normalized(AreaNormal2(corners));
+    bool before = false;
+    bool behind = false;
+    for (const Vec3& p : scene.Points)
+    {
+      const double height = Dot(n, p - corners[0]);
+      before = before || height > rounding;
+      behind = behind || height < -rounding;
+      if (before && behind)
+      {
+        return Convexity::General;
+      }
+    }
+    body = body && !before;
+    room = room && !behind;
+  }
+  return body ? Convexity::Body : (room ? Convexity::Room : Convexity::Hull);
+}
+
+} // namespace radiometry
