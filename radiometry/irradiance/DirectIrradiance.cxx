@@ -95,6 +95,7 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage,
   ConvergenceRecord* record)
 {
+  const ConvergenceRecord clock;
   const int bands = scene.Optics.Bands;
   DirectResult result;
   result.Bands = bands;
@@ -106,7 +107,6 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
     return result;
   }
 
-  const ConvergenceRecord clock;
   std::vector<double> areas(patches.size());
   for (std::size_t i = 0; i < patches.size(); ++i)
   {

@@ -142,7 +142,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
     const double end = 0.02 + 0.96 * (side + 1) / sides;
     if (options.TimeBudget > 0.0)
     {
-      direct.SecondsLeft = std::max(1e-3, options.TimeBudget - result.Convergence.Elapsed());
+      direct.SecondsLeft = std::max(1e-9, options.TimeBudget - result.Convergence.Elapsed());
     }
     if (options.Cells)
     {

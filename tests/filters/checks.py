@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkradiometry import vtkDirectionalLightSource
 
 SHARED_DATA = os.environ.get("RADIOMETRY_SHARED_DATA", "")
 SOURCE_DIR = os.environ.get("RADIOMETRY_SOURCE_DIR", "")
@@ -40,6 +41,36 @@ def points(data):
 def triangles(data):
     cells = vtk_to_numpy(data.GetPolys().GetConnectivityArray())
     return cells.reshape(-1, 3)
+
+
+def sun(direction, intensity):
+    """A directional light of so many W/m^2."""
+    source = vtkDirectionalLightSource()
+    source.SetDirection(direction)
+    source.SetIntensity(intensity)
+    return source
+
+
+def simulation(kind, data, *lights, **properties):
+    """A simulating filter on data under lights, with its properties set."""
+    f = kind()
+    f.SetInputData(data)
+    for light in lights:
+        f.AddLightsConnection(light.GetOutputPort())
+    for name, value in properties.items():
+        getattr(f, "Set" + name)(value)
+    return f
+
+
+def cell_values(f, name):
+    f.Update()
+    return array(f.GetOutputDataObject(0).GetCellData(), name)
+
+
+def strings(table, name):
+    """A column of words."""
+    column = table.GetColumnByName(name)
+    return [column.GetValue(i) for i in range(column.GetNumberOfValues())]
 
 
 class Errors:

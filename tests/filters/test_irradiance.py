@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import vtkmodules.all as vtk
-from checks import array, close, fails, run_all
+import checks
+from checks import array, close, fails, run_all, simulation, strings, sun
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkradiometry import (vtkDirectionalLightSource, vtkIrradianceFilter, vtkPointLightSource,
-                           vtkSpotLightSource)
+from vtkradiometry import vtkIrradianceFilter, vtkPointLightSource, vtkSpotLightSource
 
 CELLS, POINTS = 0, 1
 
@@ -32,26 +32,12 @@ def point_light(position, intensity, unit=0):
     return source
 
 
-def sun(direction, intensity):
-    source = vtkDirectionalLightSource()
-    source.SetDirection(direction)
-    source.SetIntensity(intensity)
-    return source
-
-
 def irradiance(data, *lights, **properties):
-    f = vtkIrradianceFilter()
-    f.SetInputData(data)
-    for light in lights:
-        f.AddLightsConnection(light.GetOutputPort())
-    for name, value in properties.items():
-        getattr(f, "Set" + name)(value)
-    return f
+    return simulation(vtkIrradianceFilter, data, *lights, **properties)
 
 
 def cell_values(f, name="Irradiance"):
-    f.Update()
-    return array(f.GetOutputDataObject(0).GetCellData(), name)
+    return checks.cell_values(f, name)
 
 
 def add_cell_array(data, name, values):
@@ -286,13 +272,8 @@ def test_spot_through_the_filter():
     off = irradiance(plane(1, 1e-3), spot, SpotShape=2)
     off.Update()
     plan = off.GetOutputDataObject(1)
-    row = array_of_strings(plan, "Effect").index("SpotShape")
-    assert array_of_strings(plan, "Decision")[row] == "left out"
-
-
-def array_of_strings(table, name):
-    column = table.GetColumnByName(name)
-    return [column.GetValue(i) for i in range(column.GetNumberOfValues())]
+    row = strings(plan, "Effect").index("SpotShape")
+    assert strings(plan, "Decision")[row] == "left out"
 
 
 def test_effect_plan_bounds_what_is_left_out():
@@ -305,13 +286,13 @@ def test_effect_plan_bounds_what_is_left_out():
         bare.AddOccludersData(shadow)
         change = np.abs(cell_values(bare) - cell_values(full)).max()
         plan = bare.GetOutputDataObject(1)
-        row = array_of_strings(plan, "Effect").index("Occlusion")
+        row = strings(plan, "Effect").index("Occlusion")
         bound = plan.GetColumnByName("Bound").GetValue(row)
         assert 0.0 < change <= bound < 100 * change, (change, bound)
-        assert array_of_strings(full.GetOutputDataObject(1), "Decision")[row] == "simulated"
+        assert strings(full.GetOutputDataObject(1), "Decision")[row] == "simulated"
     alone = irradiance(data, light)
     alone.Update()
-    assert array_of_strings(alone.GetOutputDataObject(1), "Decision")[row] == "not needed"
+    assert strings(alone.GetOutputDataObject(1), "Decision")[row] == "not needed"
 
 
 def test_convergence_table_and_time_budget():

@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 import vtkmodules.all as vtk
-from checks import array, close, fails, run_all
+from checks import array, close, fails, run_all, simulation, strings, sun
+from checks import cell_values as values
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkradiometry import vtkDirectionalLightSource, vtkPointLightSource, vtkRadiosityFilter
+from vtkradiometry import vtkPointLightSource, vtkRadiosityFilter
 
 AUTO, DENSE, HIERARCHICAL, MONTE_CARLO = range(4)
 OFF = 2
@@ -74,31 +75,8 @@ def lamp(position, lumen):
     return source
 
 
-def sun(direction, intensity):
-    source = vtkDirectionalLightSource()
-    source.SetDirection(direction)
-    source.SetIntensity(intensity)
-    return source
-
-
 def radiosity(data, *lights, **properties):
-    f = vtkRadiosityFilter()
-    f.SetInputData(data)
-    for light in lights:
-        f.AddLightsConnection(light.GetOutputPort())
-    for name, value in properties.items():
-        getattr(f, "Set" + name)(value)
-    return f
-
-
-def values(f, name):
-    f.Update()
-    return array(f.GetOutputDataObject(0).GetCellData(), name)
-
-
-def strings(table, name):
-    column = table.GetColumnByName(name)
-    return [column.GetValue(i) for i in range(column.GetNumberOfValues())]
+    return simulation(vtkRadiosityFilter, data, *lights, **properties)
 
 
 def mean(f, name="Irradiance"):
