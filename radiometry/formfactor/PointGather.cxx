@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr std::size_t Batches = 8;
-constexpr std::uint32_t FewestRays = 16; // a batch
+constexpr std::uint32_t FewestRays = 32; // a batch
 constexpr std::uint32_t MostRays = 512;
 /// How far towards the middle of its triangle a vertex's ray starts.
 constexpr double NudgeShare = 1e-3;
@@ -40,9 +40,9 @@ std::vector<PointStart> PointStarts(
 }
 
 GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
-  const ElementSet& elements, const std::vector<double>& radiosity, int bands,
-  const std::vector<SurfacePoint>& points, double absoluteTolerance, const ExchangeOptions& options,
-  const StageProgress& stage)
+  const ElementSet& elements, const std::vector<double>& radiosity,
+  const std::vector<double>& radiosityError, int bands, const std::vector<SurfacePoint>& points,
+  double absoluteTolerance, const ExchangeOptions& options, const StageProgress& stage)
 {
   const auto nb = static_cast<std::size_t>(bands);
   GatherResult result;
@@ -56,7 +56,8 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
       const std::vector<PointStart> starts = PointStarts(scene, occluders, point);
       std::vector<double> sums(Batches * nb, 0.0);
       std::array<double, Batches> counted{};
-      std::vector<double> mean(nb), error(nb);
+      std::vector<double> mean(nb), error(nb), before(nb, 0.0);
+      std::vector<std::int32_t> hits;
       std::uint32_t done = 0;
       for (std::uint32_t end = FewestRays; end <= MostRays; end *= 2)
       {
@@ -87,14 +88,23 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
             counted[batch] += 1.0;
             const SurfaceHit hit = occluders.Closest(start->End, direction);
             const std::int32_t met = elements.Find(hit.Triangle, hit.Front, hit.U, hit.V);
+            if (met >= 0)
+            {
+              hits.push_back(met);
+            }
             for (std::size_t b = 0; met >= 0 && b < nb; ++b)
             {
               sums[batch * nb + b] += radiosity[static_cast<std::size_t>(met) * nb + b];
             }
           }
         }
+        // Two estimates of the error in turn must agree that it is small: one may be so by chance.
+        bool fine = done > 0;
+        for (std::size_t b = 0; b < nb; ++b)
+        {
+          before[b] = error[b] / std::sqrt(2.0);
+        }
         done = end;
-        bool fine = true;
         for (std::size_t b = 0; b < nb; ++b)
         {
           mean[b] = 0.0;
@@ -110,7 +120,8 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
           }
           error[b] = std::sqrt(square / (Batches * (Batches - 1.0)));
           fine = fine &&
-            2.4 * error[b] <= std::max(absoluteTolerance, options.RelativeTolerance * mean[b]);
+            2.0 * (error[b] + before[b]) <=
+              std::max(absoluteTolerance, options.RelativeTolerance * mean[b]);
         }
         if (fine)
         {
@@ -118,7 +129,30 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
         }
       }
       std::copy(mean.begin(), mean.end(), result.Irradiance.data() + i * nb);
-      std::copy(error.begin(), error.end(), result.Error.data() + i * nb);
+      for (std::size_t b = 0; b < nb; ++b)
+      {
+        error[b] = std::pow(std::max(error[b], before[b]), 2);
+      }
+      std::sort(hits.begin(), hits.end());
+      for (std::size_t h = 0; h < hits.size();)
+      {
+        std::size_t end = h;
+        while (end < hits.size() && hits[end] == hits[h])
+        {
+          ++end;
+        }
+        const double weight = static_cast<double>(end - h) / static_cast<double>(rays[i]);
+        for (std::size_t b = 0; b < nb; ++b)
+        {
+          const double u = radiosityError[static_cast<std::size_t>(hits[h]) * nb + b];
+          error[b] += weight * weight * u * u;
+        }
+        h = end;
+      }
+      for (std::size_t b = 0; b < nb; ++b)
+      {
+        result.Error[i * nb + b] = std::sqrt(error[b]);
+      }
     },
     1e-4);
   for (const std::int64_t r : rays)

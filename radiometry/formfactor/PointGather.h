@@ -32,11 +32,13 @@ struct GatherResult
 
 /// Irradiance at points from elements of known radiosity, by cosine-weighted rays about their
 /// normals (final gather).
-///   Error   spread of eight scrambled sequences, each continued until 2.4 standard errors are
-///           below the tolerance, or 8 x 512 rays
+/// `radiosityError` is the standard error of each element's radiosity, independent of the others':
+/// it counts for points that see few elements.
+///   Error   spread of eight scrambled sequences, the larger of the last two estimates; the
+///           sequences are continued until both are some half of the tolerance, or 8 x 512 rays
 GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
-  const ElementSet& elements, const std::vector<double>& radiosity, int bands,
-  const std::vector<SurfacePoint>& points, double absoluteTolerance, const ExchangeOptions& options,
-  const StageProgress& stage = {});
+  const ElementSet& elements, const std::vector<double>& radiosity,
+  const std::vector<double>& radiosityError, int bands, const std::vector<SurfacePoint>& points,
+  double absoluteTolerance, const ExchangeOptions& options, const StageProgress& stage = {});
 
 } // namespace radiometry

@@ -529,17 +529,23 @@ FieldValues RadiositySimulation::IrradianceAt(
     mean /= area;
     const double allowed = std::max(m.Context.Options.AbsoluteTolerance,
       m.Context.Options.RelativeTolerance * DarkestShare * mean);
+    // Sampling of the elements' own irradiance reaches a point that sees few of them.
+    std::vector<double> sampling(level.VisibilityError.size());
+    const double coverage = level.Carlo ? CarloCoverage : DenseCoverage;
+    for (std::size_t k = 0; k < sampling.size(); ++k)
+    {
+      sampling[k] = level.Optics.Reflectance[k] * level.VisibilityError[k] / coverage;
+    }
     const GatherResult g = GatherAtPoints(m.Context.Geometry, m.Context.Occluders, level.Elements,
-      level.Leaving, static_cast<int>(m.Context.Bands), points, allowed, exchange,
+      level.Leaving, sampling, static_cast<int>(m.Context.Bands), points, allowed, exchange,
       part(0.4, 1.0, "final gather"));
-    // The elements' own errors reach points as they reach elements: by their mean share.
+    // The elements' other errors reach points as they reach elements: by their mean share.
     const RadiosityErrorBudget& budget = m.Result.Budget;
-    const double share =
-      mean > 0.0 ? (budget.Discretisation + budget.FormFactors + budget.Solver) / mean : 0.0;
+    const double share = mean > 0.0 ? (budget.Discretisation + budget.FormFactors) / mean : 0.0;
     for (std::size_t k = 0; k < out.Values.size(); ++k)
     {
       out.Values[k] += g.Irradiance[k];
-      out.Errors[k] =
+      out.Errors[k] = budget.Solver +
         std::hypot(std::hypot(out.Errors[k], CarloCoverage * g.Error[k]), share * g.Irradiance[k]);
     }
   }

@@ -240,6 +240,38 @@ TEST(RadiositySimulation, ErrorsCoverAndAreNotTimid)
   }
 }
 
+TEST(RadiositySimulation, SmallThingsOnALargeTable)
+{
+  // A bowl of 2 cm triangles on a sheet of two: the sheet is dark beneath and bright beside, and
+  // one radiosity on it would light the bowl's underside.
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 4, 4, 3 }, 1, true);
+  const std::size_t bowl = mesh.Triangles.size();
+  mesh.AddBox({ 1.9, 1.9, 0.01 }, { 2.1, 2.1, 0.1 }, 4, false);
+  Scene scene = mesh.ToScene(0.6);
+  scene.Lights.push_back(PointLight(scene, { 2.3, 2.2, 2.5 }, 10.0));
+  RadiosityOptions options;
+  options.RelativeTolerance = 0.015;
+  options.Seed = 5;
+  const RadiosityResult reference = Simulate(scene, options);
+  options.RelativeTolerance = 0.05;
+  options.Seed = 0;
+  const RadiosityResult r = Simulate(scene, options);
+  EXPECT_EQ(r.Method, RadiosityMethod::MonteCarlo);
+  double covered = 0.0, median = 0.0;
+  Honesty(r, reference, covered, median);
+  EXPECT_GE(covered, 0.95);
+  EXPECT_LT(median, 10.0);
+  // The underside, 1 cm over the sheet, is darker than its sides by an order.
+  double underside = 0.0, sides = 0.0;
+  for (std::size_t c = bowl; c < bowl + 32; ++c)
+  {
+    underside += r.Irradiance[0].Values[c] / 32.0;
+    sides += r.Irradiance[0].Values[c + 64] / 32.0;
+  }
+  EXPECT_LT(underside, 0.1 * sides);
+}
+
 TEST(RadiositySimulation, SameBytesForAnyNumberOfThreads)
 {
   test::Mesh mesh;
