@@ -104,7 +104,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
     }
   }
   meanValue = totalArea > 0.0 ? totalValue / (totalArea * static_cast<double>(nb)) : 0.0;
-  double met = 0.0;
+  double met = 0.0, count = 0.0, countMet = 0.0;
   std::array<std::vector<std::uint8_t>, 2> open;
   for (std::size_t side = 0; side < (back ? 2 : 1); ++side)
   {
@@ -153,6 +153,8 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
         worst.Solver = std::max(worst.Solver, solver);
       }
       met += fine ? a : 0.0;
+      count += 1.0;
+      countMet += fine ? 1.0 : 0.0;
       open[side][c] = !fine;
       const double share = a / totalArea;
       result.Budget.Direct += share * worst.Direct;
@@ -189,7 +191,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
   const double perValue = totalArea * static_cast<double>(nb);
   result.Convergence.Add(stage, totalValue > 0.0 ? totalError / totalValue : 0.0,
     perValue > 0.0 ? totalError / perValue : 0.0, result.Samples);
-  return met >= 0.95 * totalArea;
+  return met >= 0.95 * totalArea && countMet >= 0.95 * count;
 }
 
 } // namespace radiometry

@@ -13,7 +13,7 @@ inline constexpr double DarkestShare = 0.05;
 /// values, errors, budget and a row of Convergence of the result.
 ///   Error   hypot(direct, visibility, discretisation) + form factors + solver. Visibility of
 ///           elements is independent (squares add); the rest may have one sign (adds)
-///   Returns true when 95 % of the area meets the tolerance. `unfinished` gets 1 for each element
+///   Returns true when 95 % of the cells and of their area meet the tolerance. `unfinished` gets 1 for each element
 ///           of a cell that does not
 bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& level,
   const char* stage, RadiosityResult& result, std::vector<std::uint8_t>* unfinished);

@@ -20,10 +20,10 @@ namespace
 constexpr std::size_t DefaultMemory = std::size_t(2) << 30;
 constexpr int FirstRays = 64;
 constexpr double FirstTolerance = 0.03;
-constexpr int UnevenRounds = 5;
+constexpr int FinerRounds = 8;
 constexpr int MostRays = 16384;
 
-const char* const MetOutcome = "the tolerance is met on 95 % of the area";
+const char* const MetOutcome = "the tolerance is met by 95 % of the cells and of their area";
 
 const char* MethodName(RadiosityMethod method)
 {
@@ -85,6 +85,13 @@ struct RadiositySimulation::Internals
   std::size_t DenseLimit() const;
   std::size_t AutomaticLimit() const;
   void Illuminate(RadiosityLevel& level, const StageProgress& stage);
+  std::unique_ptr<RadiosityLevel> RefineByLight(ElementSet elements, std::size_t room,
+    std::size_t uneven, bool& complete, const StageProgress& stage);
+  bool MayTurnToRays() const
+  {
+    return this->Context.Options.Method == RadiosityMethod::Auto &&
+      this->Context.Options.Occlusion && !this->Context.Convex;
+  }
   /// False when elements are too coarse for the tolerance and all pairs of finer ones too many.
   bool RunDense(const ElementSet& coarsest, const StageProgress& stage);
   void RunMonteCarlo(const ElementSet& coarsest, const StageProgress& stage);
@@ -174,6 +181,50 @@ void RadiositySimulation::Internals::Illuminate(RadiosityLevel& level, const Sta
   }
 }
 
+/// Finer where first light is uneven (up to `uneven` elements), and where small things stand close
+/// to large elements (up to `room`; `complete` tells whether that was enough).
+std::unique_ptr<RadiosityLevel> RadiositySimulation::Internals::RefineByLight(ElementSet elements,
+  std::size_t room, std::size_t uneven, bool& complete, const StageProgress& stage)
+{
+  const double width = stage.End - stage.Begin;
+  for (int round = 0;; ++round)
+  {
+    StageProgress part = stage;
+    part.Begin = stage.Begin + width * (1.0 - std::pow(0.5, round));
+    part.End = 0.5 * (part.Begin + stage.End);
+    auto level = std::make_unique<RadiosityLevel>(this->Context, elements);
+    this->Illuminate(*level, part);
+    if (this->Context.Options.Refinement == RefinementMode::Off || round == FinerRounds ||
+      this->Left() < 0.0)
+    {
+      return level;
+    }
+    const std::size_t n = elements.Size();
+    const auto share = [n](std::size_t most) { return most > n ? (most - n) / 6 : 0; };
+    std::vector<std::uint8_t> finer = level->Uneven(this->Context, share(uneven));
+    this->Timed("refinement", [&] {
+      part.Begin = part.End;
+      part.Name = "refinement";
+      const std::vector<std::uint8_t> crowded = level->Crowded(this->Context, n, part);
+      std::size_t allowed = share(room);
+      for (std::size_t e = 0; e < n; ++e)
+      {
+        complete = complete && !(crowded[e] && allowed == 0);
+        if (crowded[e] && allowed > 0)
+        {
+          finer[e] = 1;
+          --allowed;
+        }
+      }
+    });
+    if (std::none_of(finer.begin(), finer.end(), [](std::uint8_t m) { return m != 0; }))
+    {
+      return level;
+    }
+    elements = elements.Divided(finer);
+  }
+}
+
 bool RadiositySimulation::Internals::RunDense(
   const ElementSet& coarsest, const StageProgress& stage)
 {
@@ -209,8 +260,13 @@ bool RadiositySimulation::Internals::RunDense(
       // One radiosity a cell, and the solve without that restriction to know what it costs.
       elements = coarsest.Divided(std::vector<std::uint8_t>(coarsest.Size(), 1));
     }
-    auto level = std::make_unique<RadiosityLevel>(this->Context, elements);
-    this->Illuminate(*level, part(0.0, 0.2, "direct light"));
+    bool complete = true;
+    std::unique_ptr<RadiosityLevel> level =
+      this->RefineByLight(elements, limit, 0, complete, part(0.0, 0.2, "direct light"));
+    if (!complete && this->MayTurnToRays())
+    {
+      return false;
+    }
     this->Timed("exchange", [&] {
       level->F = std::make_unique<DenseOperator>(this->Context.Geometry, this->Context.Occluders,
         level->Elements, this->Context.Exchange(), part(0.2, 0.8, "exchange"));
@@ -218,7 +274,7 @@ bool RadiositySimulation::Internals::RunDense(
     this->Timed("solve", [&] { level->Solve(this->Context, true, part(0.8, 1.0, "solve")); });
     begin = part(0.0, 1.0, "").End;
     const bool met = EvaluateRadiosity(this->Context, *level, "solved", this->Result, nullptr);
-    const std::size_t n = level->Elements.Size();
+    const std::size_t n = coarsest.CountAtArea(area);
     this->Finest = std::move(level);
     if (met && !(this->Context.Options.Refinement == RefinementMode::On && n == coarsest.Size()))
     {
@@ -300,36 +356,10 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     return p;
   };
   this->Context.Tolerance = this->Context.Options.RelativeTolerance;
-  // Finer where first light is uneven, and where small things stand close to large elements.
-  std::unique_ptr<RadiosityLevel> level;
+  bool complete = true;
   const std::size_t room = 2 * std::max<std::size_t>(elements.Size(), 8000);
-  for (int round = 0;; ++round)
-  {
-    const double at = 0.2 * (1.0 - std::pow(0.5, round));
-    level = std::make_unique<RadiosityLevel>(this->Context, elements);
-    this->Illuminate(*level, part(at, 0.5 * (at + 0.2), "direct light"));
-    const std::size_t most = room > elements.Size() ? (room - elements.Size()) / 12 : 0;
-    if (this->Context.Options.Refinement == RefinementMode::Off || round == UnevenRounds ||
-      most == 0 || this->Left() < 0.0)
-    {
-      break;
-    }
-    std::vector<std::uint8_t> finer = level->Uneven(this->Context, most);
-    this->Timed("refinement", [&] {
-      const double middle = 0.5 * (at + 0.2);
-      const std::vector<std::uint8_t> crowded =
-        level->Crowded(this->Context, most, part(middle, middle, "refinement"));
-      for (std::size_t e = 0; e < finer.size(); ++e)
-      {
-        finer[e] = finer[e] || crowded[e];
-      }
-    });
-    if (std::none_of(finer.begin(), finer.end(), [](std::uint8_t m) { return m != 0; }))
-    {
-      break;
-    }
-    elements = elements.Divided(finer);
-  }
+  std::unique_ptr<RadiosityLevel> level =
+    this->RefineByLight(elements, room, room, complete, part(0.0, 0.2, "direct light"));
   const std::size_t n = level->Elements.Size();
   std::size_t neighbourhoods = 0;
   const std::vector<std::int32_t> neighbourhood =
@@ -470,8 +500,7 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   {
     m.RunMonteCarlo(elements, stage);
   }
-  else if (!m.RunDense(elements, stage) && m.Context.Options.Method == RadiosityMethod::Auto &&
-    m.Context.Options.Occlusion && !m.Context.Convex)
+  else if (!m.RunDense(elements, stage) && m.MayTurnToRays())
   {
     m.Result.Method = RadiosityMethod::MonteCarlo;
     m.Result.MethodWhy = "MonteCarlo: the tolerance asks for more elements than all pairs allow";

