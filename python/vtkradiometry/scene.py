@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A scene from disk: surface, lights and camera, checked and made fine enough to compute on."""
 import os
+import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -102,6 +103,7 @@ class Scene:
 
 
 def _check(path, surface, lights):
+    """Refuses what cannot be computed with; returns what the user should be warned of."""
     if surface.GetNumberOfCells() == 0:
         raise InputFault(f"{path}: no triangles in the scene")
     xyz = mesh.points(surface)
@@ -113,8 +115,9 @@ def _check(path, surface, lights):
     enabled = lights.GetPointData().GetArray("LightEnabled")
     lit = lights.GetNumberOfPoints() > 0 and (enabled is None or vtk_to_numpy(enabled).any())
     if not (lit or emits):
-        raise InputFault(f"{path}: nothing gives light: no light (KHR_lights_punctual) and no "
-                         "emissive material in the scene")
+        return ["Lights: nothing gives light, neither a light (KHR_lights_punctual) nor an emissive "
+                "material: every value is 0."]
+    return []
 
 
 def _set_two_sided(surface, value):
@@ -162,8 +165,11 @@ def read(path, options, progress):
     surface, lights = vtkPolyData(), vtkPolyData()
     surface.ShallowCopy(reader.GetOutputDataObject(0))
     lights.ShallowCopy(reader.GetOutputDataObject(1))
-    _check(path, surface, lights)
+    warnings = _check(path, surface, lights)
+    for words in warnings:
+        sys.stderr.write(f"run: warning: {path}: {words}\n")
     assumptions = [reader.GetAssumption(k) for k in range(reader.GetNumberOfAssumptions())]
+    assumptions += warnings
     names = lights.GetFieldData().GetAbstractArray("LightNames")
     names = [names.GetValue(k) for k in range(names.GetNumberOfValues())] if names else []
     camera = _camera(reader, surface.GetBounds(), options.size[0] / options.size[1])

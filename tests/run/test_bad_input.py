@@ -2,6 +2,7 @@
 """Bad input: exit status 2, one line that says what and where, nothing written."""
 import base64
 import copy
+import json
 import os
 import struct
 import tempfile
@@ -57,8 +58,6 @@ def scenes(folder):
     yield "reflectance above 1", changed("bright", colour([0.5, 1.5, 0.5, 1])), ["1.5"]
     yield "unknown light", changed("laser", light_type), ["laser"]
     yield "negative light", changed("dark", light_intensity), ["-5"]
-    dark = tiny_scene.write(os.path.join(folder, "unlit.gltf"), tiny_scene.document(lights=False))
-    yield "no light at all", dark, ["light"]
 
 
 with tempfile.TemporaryDirectory() as where:
@@ -86,3 +85,13 @@ with tempfile.TemporaryDirectory() as where:
     for wrong in (["--tolerance", "-1"], ["--size", "0x0"], ["--method", "magic"], ["--nonsense"]):
         done = run(scene, "--output", out, *wrong)
         require(done.returncode == 2 and listing(out) is None, wrong, done.returncode)
+
+    # A scene without light is no fault: every value is 0, and that is said.
+    dark = tiny_scene.write(os.path.join(where, "unlit.gltf"), tiny_scene.document(lights=False))
+    done = run(dark, "--output", out, "--quiet", "--max-edge", 0)
+    require(done.returncode == 0, done.returncode, done.stderr)
+    require("warning" in done.stderr and "nothing gives light" in done.stderr, done.stderr)
+    with open(os.path.join(out, "report.json"), encoding="utf-8") as stream:
+        report = json.load(stream)
+    require(any("nothing gives light" in words for words in report["assumptions"]), report)
+    require("NaN" not in json.dumps(report), "the report has a NaN")
