@@ -97,12 +97,14 @@ class View:
         seen = picture.seen_cells(view_mesh.coarse_polydata(surface, drawn), scene.camera, size)
         self.mesh = view_mesh.ViewMesh(surface, self.smooth, scene.camera, size, drawn, back, seen)
         direct = _seen(surface, "DirectIrradiance", back)
-        irradiance = _seen(surface, "Irradiance", back)
-        self.irradiance = self._direct(scene, surface, options, progress)
-        if direct is not None:  # what other surfaces send
-            rest = np.maximum(irradiance - direct, 0.0)
-            self.irradiance = self.irradiance + self.mesh.from_computed(
-                self.smooth.to_points(rest))
+        rest = None  # what other surfaces send
+        if direct is not None:
+            rest = self.smooth.to_points(
+                np.maximum(_seen(surface, "Irradiance", back) - direct, 0.0))
+        self.irradiance = self._total(rest, scene, surface, options, progress)
+        if scene.lights.GetNumberOfPoints() > 0:  # shadows have edges
+            self.mesh.sharpen(self.irradiance)
+            self.irradiance = self._total(rest, scene, surface, options, progress)
         reflectance = mesh.cell_array(surface, "DiffuseReflectance")
         if reflectance is None:
             reflectance = np.full((len(back), 1), 0.5)
@@ -111,6 +113,10 @@ class View:
         if emitted is not None:
             radiosity = radiosity + self.mesh.from_computed(self.smooth.to_points(emitted))
         self.radiance = radiosity / math.pi
+
+    def _total(self, rest, scene, surface, options, progress):
+        direct = self._direct(scene, surface, options, progress)
+        return direct if rest is None else direct + self.mesh.from_computed(rest)
 
     def _direct(self, scene, surface, options, progress):
         if scene.lights.GetNumberOfPoints() == 0:

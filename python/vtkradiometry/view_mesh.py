@@ -10,8 +10,10 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from . import mesh
 from .subdivide import divide, row_keys
 
-PIXELS = 3.0  # length of the shortest edges that are still divided, in pixels
-LARGEST = 350000  # triangles
+PIXELS = 8.0  # length of the shortest edges that are still divided, in pixels
+SHARP_PIXELS = 1.5  # the same where the light changes abruptly
+CONTRAST = 0.12  # what counts as abrupt: change within a triangle, relative to the value
+LARGEST = 250000  # triangles
 INHERITED = ("Transmittance",)
 
 
@@ -96,14 +98,34 @@ class ViewMesh:
         at_place = np.zeros(place.max() + 1)
         at_place[place[seen]] = 1.0
         start = np.concatenate([corner, weights, at_place[place][:, :, None]], axis=2)
-        pixels = PIXELS
+        self._view = camera, size, drawn
+        self._divide(start, np.arange(len(start)), PIXELS)
+
+    def sharpen(self, values):
+        """Divides on where `values` (at this mesh's points, any unit) change abruptly."""
+        value = values.mean(axis=1)[self.corner]
+        high, low = value.max(axis=1), value.min(axis=1)
+        typical = float(np.median(high[self.drawn])) if self.drawn.any() else 0.0
+        abrupt = self.drawn & (high - low > CONTRAST * (high + 0.1 * typical))
+        at_place = np.zeros(len(self.place))
+        at_place[self._places[abrupt]] = 1.0
+        start = self._fine.copy()
+        start[:, :, 6] = at_place[self._places]
+        self._divide(start, self.origin, SHARP_PIXELS)
+
+    def _divide(self, start, origin, pixels):
+        camera, size, drawn = self._view
         while True:
             divided = divide(start, _edge_test(camera, size, pixels),
-                             max(LARGEST, 3 * len(corner)))
+                             max(LARGEST, 3 * len(self.back), len(start)))
             if divided is not None:
                 break
             pixels *= 1.3
-        fine, origin = divided
+        self._build(divided[0], origin[divided[1]], drawn)
+
+    def _build(self, fine, origin, drawn):
+        smooth = self.smooth
+        self._fine = fine
         self.weights = fine[:, :, 3:6].copy()
         self.origin = origin
         self.drawn = drawn[origin]
@@ -112,7 +134,8 @@ class ViewMesh:
         keys = row_keys(*flat.T)
         _, chosen, index = np.unique(keys, return_index=True, return_inverse=True)
         self.place = flat[chosen]
-        self.index = index.reshape(-1, 3)
+        self._places = index.reshape(-1, 3)
+        self.index = self._places.copy()
         flip = self.back[origin]
         self.index[flip] = self.index[flip][:, ::-1]
         self.weights[flip] = self.weights[flip][:, ::-1]
