@@ -61,8 +61,8 @@ def make_parser(program="./run"):
     parser.add_argument("--version", action="store_true", help="print the versions and stop")
 
     accuracy = parser.add_argument_group("how accurate, how long")
-    accuracy.add_argument("--tolerance", type=_positive, default=0.02, metavar="X",
-                          help="relative error to reach, 0.01 is one per cent (default: 0.02)")
+    accuracy.add_argument("--tolerance", type=_positive, default=0.05, metavar="X",
+                          help="relative error to reach, 0.01 is one per cent (default: 0.05)")
     accuracy.add_argument("--time-budget", type=_not_negative, default=0.0, metavar="SECONDS",
                           help="stop each computation after this time and say how far it got "
                           "(default: 0, no limit)")
