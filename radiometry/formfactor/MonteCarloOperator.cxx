@@ -25,6 +25,45 @@ std::int32_t Root(std::vector<std::int32_t>& leader, std::int32_t k)
   return k;
 }
 
+/// Adds what leaves the elements that were hit.
+void SumHits(const std::int32_t* begin, const std::int32_t* end, const double* B, std::size_t bands,
+  double* sum)
+{
+  for (const std::int32_t* hit = begin; hit != end; ++hit)
+  {
+    if (*hit >= 0)
+    {
+      const double* leaving = B + static_cast<std::size_t>(*hit) * bands;
+      for (std::size_t b = 0; b < bands; ++b)
+      {
+        sum[b] += leaving[b];
+      }
+    }
+  }
+}
+
+/// The same for a number of bands known when compiled: the sums stay in registers.
+template <std::size_t Bands>
+void SumHits(const std::int32_t* begin, const std::int32_t* end, const double* B, double* sum)
+{
+  double local[Bands] = {};
+  for (const std::int32_t* hit = begin; hit != end; ++hit)
+  {
+    if (*hit >= 0)
+    {
+      const double* leaving = B + static_cast<std::size_t>(*hit) * Bands;
+      for (std::size_t b = 0; b < Bands; ++b)
+      {
+        local[b] += leaving[b];
+      }
+    }
+  }
+  for (std::size_t b = 0; b < Bands; ++b)
+  {
+    sum[b] += local[b];
+  }
+}
+
 } // namespace
 
 MonteCarloOperator::MonteCarloOperator(const OcclusionScene& occluders, const ElementSet& elements,
@@ -193,16 +232,18 @@ void MonteCarloOperator::Apply(const double* B, double* out, int bands) const
       std::fill(sum, sum + nb, 0.0);
       for (const Round& round : this->Rounds)
       {
-        for (std::size_t k = round.Begin[i]; k < round.Begin[i + 1]; ++k)
+        const std::int32_t* begin = round.Hit.data() + round.Begin[i];
+        const std::int32_t* end = round.Hit.data() + round.Begin[i + 1];
+        switch (nb)
         {
-          if (round.Hit[k] >= 0)
-          {
-            const double* leaving = B + static_cast<std::size_t>(round.Hit[k]) * nb;
-            for (std::size_t b = 0; b < nb; ++b)
-            {
-              sum[b] += leaving[b];
-            }
-          }
+          case 1:
+            SumHits<1>(begin, end, B, sum);
+            break;
+          case 3:
+            SumHits<3>(begin, end, B, sum);
+            break;
+          default:
+            SumHits(begin, end, B, nb, sum);
         }
       }
       const auto c = static_cast<std::size_t>(this->Component[i]);
