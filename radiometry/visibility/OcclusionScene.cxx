@@ -48,6 +48,7 @@ struct RayQuery
   std::int32_t FromTriangle = -1;
   std::int32_t ToTriangle = -1;
   const std::vector<Triangle3>* Triangles = nullptr;
+  const std::vector<Vec3>* Normals = nullptr;
   bool Ambiguous = false;      // single precision met a triangle's rim near an end
   bool Exact = false;          // an end is too close to a surface for single precision
 };
@@ -69,7 +70,7 @@ Verdict Judge(const RayQuery& ray, std::int32_t t, bool strict, double& distance
     return Verdict::Miss;
   }
   const Triangle3& v = (*ray.Triangles)[t];
-  const Vec3 n = Normalized(AreaNormal2(v));
+  const Vec3& n = (*ray.Normals)[t];
   const double h0 = Dot(n, ray.Start - v[0]);
   const double rate = Dot(n, ray.Direction);
   if (std::fabs(h0) <= OnPlane || h0 * rate >= 0.0)
@@ -184,6 +185,7 @@ struct OcclusionScene::Internals
   double Scale = 1.0;
   Box3 Bounds; // of the scaled triangles
   std::vector<Triangle3> Triangles;
+  std::vector<Vec3> Normals; // unit
   BoxTree Tree;
   RTCScene Handle = nullptr;
   std::once_flag LinesFlag;
@@ -288,6 +290,7 @@ struct OcclusionScene::Internals
     q.Length = std::numeric_limits<double>::infinity();
     q.FromTriangle = from.Triangle;
     q.Triangles = &this->Triangles;
+    q.Normals = &this->Normals;
     q.Exact = from.Close || (from.Triangle >= 0 && this->NearRim(q.Start, from.Triangle));
     return q;
   }
@@ -468,6 +471,7 @@ OcclusionScene::OcclusionScene(const Scene& scene)
 
   std::vector<Box3> boxes(count);
   this->Impl->Triangles.resize(count);
+  this->Impl->Normals.resize(count);
   for (std::size_t t = 0; t < count; ++t)
   {
     Triangle3& scaled = this->Impl->Triangles[t];
@@ -478,6 +482,7 @@ OcclusionScene::OcclusionScene(const Scene& scene)
       boxes[t].Add(scaled[k]);
     }
     this->Impl->Bounds.Add(boxes[t]);
+    this->Impl->Normals[t] = Normalized(AreaNormal2(scaled));
   }
   this->Impl->Tree = BoxTree(boxes);
 
@@ -556,7 +561,7 @@ bool OcclusionScene::TooClose(const Vec3& point) const
     [&](const Box3& box) { return Near(box, p, Closeness); },
     [&](std::int32_t t) {
       const Triangle3& v = this->Impl->Triangles[t];
-      return std::fabs(Dot(Normalized(AreaNormal2(v)), p - v[0])) > Closeness;
+      return std::fabs(Dot(this->Impl->Normals[t], p - v[0])) > Closeness;
     });
 }
 
@@ -569,7 +574,7 @@ std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal, double ro
   this->Impl->Tree.Visit([&](const Box3& box) { return Near(box, p, reach); },
     [&](std::int32_t t) {
       const Triangle3& v = this->Impl->Triangles[t];
-      const Vec3 n = Normalized(AreaNormal2(v));
+      const Vec3& n = this->Impl->Normals[t];
       const double h = std::fabs(Dot(n, p - v[0]));
       bool inside = std::fabs(Dot(n, normal)) > 0.866;
       for (int k = 0; k < 3 && inside; ++k)
@@ -587,7 +592,7 @@ std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal, double ro
   if (found >= 0)
   {
     const Triangle3& v = this->Impl->Triangles[found];
-    const Vec3 n = Normalized(AreaNormal2(v));
+    const Vec3& n = this->Impl->Normals[found];
     point = point - (Dot(n, p - v[0]) / this->Impl->Scale) * n;
   }
   return found;
