@@ -191,7 +191,8 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
   const double perValue = totalArea * static_cast<double>(nb);
   result.Convergence.Add(stage, totalValue > 0.0 ? totalError / totalValue : 0.0,
     perValue > 0.0 ? totalError / perValue : 0.0, result.Samples);
-  return met >= 0.95 * totalArea && countMet >= 0.95 * count;
+  result.MetShare = totalArea > 0.0 ? std::min(met / totalArea, countMet / count) : 1.0;
+  return result.MetShare >= 0.95;
 }
 
 } // namespace radiometry

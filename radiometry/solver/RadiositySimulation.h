@@ -77,6 +77,7 @@ struct RadiosityResult
   ClosureReport Closure;
   std::size_t Elements = 0;
   int Iterations = 0;
+  double MetShare = 0.0; // of the cells, and of their area, that meets the tolerance (the lesser)
   std::int64_t Samples = 0; // pairs and rays of the operator
   std::size_t OperatorBytes = 0;
 };
