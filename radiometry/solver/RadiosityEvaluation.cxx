@@ -104,7 +104,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
     }
   }
   meanValue = totalArea > 0.0 ? totalValue / (totalArea * static_cast<double>(nb)) : 0.0;
-  double met = 0.0, count = 0.0, countMet = 0.0;
+  double met = 0.0, count = 0.0, countMet = 0.0, excess = 0.0;
   std::array<std::vector<std::uint8_t>, 2> open;
   for (std::size_t side = 0; side < (back ? 2 : 1); ++side)
   {
@@ -124,7 +124,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
       {
         continue;
       }
-      bool fine = true;
+      double worstExcess = 0.0;
       RadiosityErrorBudget worst;
       for (std::size_t b = 0; b < nb; ++b)
       {
@@ -145,13 +145,16 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
         totalError += a * error;
         const double allowed = std::max(context.Options.AbsoluteTolerance,
           context.Options.RelativeTolerance * std::max(value, DarkestShare * meanValue));
-        fine = fine && error <= allowed;
+        worstExcess =
+          std::max(worstExcess, allowed > 0.0 ? error / allowed : (error > 0.0 ? 10.0 : 0.0));
         worst.Direct = std::max(worst.Direct, direct);
         worst.FormFactors = std::max(worst.FormFactors, formFactor);
         worst.Visibility = std::max(worst.Visibility, visibility);
         worst.Discretisation = std::max(worst.Discretisation, discretisation);
         worst.Solver = std::max(worst.Solver, solver);
       }
+      const bool fine = worstExcess <= 1.0;
+      excess += fine ? 0.0 : std::min(worstExcess, 10.0);
       met += fine ? a : 0.0;
       count += 1.0;
       countMet += fine ? 1.0 : 0.0;
@@ -191,6 +194,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
   const double perValue = totalArea * static_cast<double>(nb);
   result.Convergence.Add(stage, totalValue > 0.0 ? totalError / totalValue : 0.0,
     perValue > 0.0 ? totalError / perValue : 0.0, result.Samples);
+  result.Excess = count > 0.0 ? excess / count : 0.0;
   result.MetShare = totalArea > 0.0 ? std::min(met / totalArea, countMet / count) : 1.0;
   return result.MetShare >= 0.95;
 }

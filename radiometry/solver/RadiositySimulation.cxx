@@ -380,7 +380,7 @@ void RadiositySimulation::Internals::RunMonteCarlo(
     raySeconds = (this->Result.Convergence.Elapsed() - begin) /
       static_cast<double>(std::max<std::int64_t>(1, level->F->Samples()));
   });
-  double at = 0.3, lastMet = 0.0, lastError = std::numeric_limits<double>::infinity();
+  double at = 0.3, lastMet = 0.0, lastExcess = std::numeric_limits<double>::infinity();
   for (int rounds = 0;; ++rounds)
   {
     const double round = this->Result.Convergence.Elapsed();
@@ -394,14 +394,13 @@ void RadiositySimulation::Internals::RunMonteCarlo(
       this->Result.Outcome = MetOutcome;
       break;
     }
-    const double error = this->Result.Convergence.Rows.back().RelativeError;
-    if (this->Result.MetShare < lastMet + 0.01 && error > 0.93 * lastError)
+    if (this->Result.MetShare < lastMet + 0.01 && this->Result.Excess > 0.93 * lastExcess)
     {
       this->Result.Outcome = "more rays no longer help: the elements' size limits the rest";
       break;
     }
     lastMet = this->Result.MetShare;
-    lastError = error;
+    lastExcess = this->Result.Excess;
     // More rays where rays are what limits: by neighbourhoods, for to ask each element by itself
     // would end with those whose rays happen to have missed what is bright.
     std::vector<double> wanting(neighbourhoods, 0.0), whole(neighbourhoods, 0.0);

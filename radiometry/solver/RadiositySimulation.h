@@ -78,6 +78,7 @@ struct RadiosityResult
   std::size_t Elements = 0;
   int Iterations = 0;
   double MetShare = 0.0; // of the cells, and of their area, that meets the tolerance (the lesser)
+  double Excess = 0.0;   // mean over the cells of error/tolerance (at most 10) where above 1
   std::int64_t Samples = 0; // pairs and rays of the operator
   std::size_t OperatorBytes = 0;
 };
