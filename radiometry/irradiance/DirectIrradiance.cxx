@@ -23,23 +23,35 @@ constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 class LightSet
 {
 public:
-  LightSet(const Scene& scene, const OcclusionScene& occluders, const DirectOptions& options)
+  LightSet(const Scene& scene, const OcclusionScene& occluders, const DirectOptions& options,
+    const StageProgress& stage)
   {
-    const bool occlusion = options.Occlusion && !scene.Triangles.empty();
-    this->Lines = occlusion ? &occluders.Lines(scene, options.Threads) : nullptr;
     for (const Light& light : scene.Lights)
     {
-      if (!light.Enabled || light.Type == LightType::Area || light.Type == LightType::Environment)
+      if (light.Enabled && light.Type != LightType::Area && light.Type != LightType::Environment)
       {
-        continue;
+        this->Sources.push_back(
+          std::make_unique<SourceFlux>(light, options.SpotShape, options.Attenuation));
       }
-      this->Sources.push_back(
-        std::make_unique<SourceFlux>(light, options.SpotShape, options.Attenuation));
-      this->Outlines.push_back(
-        occlusion ? std::make_unique<Silhouettes>(scene, *this->Lines, light) : nullptr);
-      this->Cutters.push_back(std::make_unique<ShadowCutter>(
-        *this->Sources.back(), this->Outlines.back().get(), occluders));
     }
+    this->Outlines.resize(this->Size());
+    this->Cutters.resize(this->Size());
+    if (options.Occlusion && !scene.Triangles.empty() && this->Size() > 0)
+    {
+      this->Lines = &occluders.Lines(scene, options.Threads, stage);
+    }
+    ParallelFor(
+      this->Size(), options.Threads, stage,
+      [&](std::size_t k) {
+        if (this->Lines)
+        {
+          this->Outlines[k] =
+            std::make_unique<Silhouettes>(scene, *this->Lines, this->Sources[k]->GetLight());
+        }
+        this->Cutters[k] = std::make_unique<ShadowCutter>(
+          *this->Sources[k], this->Outlines[k].get(), occluders);
+      },
+      2e-8 * static_cast<double>(scene.Triangles.size()) + 1e-6);
   }
   std::size_t Size() const { return this->Sources.size(); }
 
@@ -101,7 +113,9 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   result.Bands = bands;
   result.Irradiance.assign(patches.size() * bands, 0.0);
   result.Error.assign(patches.size() * bands, 0.0);
-  const LightSet lights(scene, occluders, options);
+  StageProgress preparing = stage;
+  preparing.End = stage.Begin + 0.1 * (stage.End - stage.Begin);
+  const LightSet lights(scene, occluders, options, preparing);
   if (lights.Size() == 0 || patches.empty())
   {
     return result;
@@ -118,7 +132,8 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   std::vector<std::uint8_t> open(patches.size(), 1);
   std::vector<double> unshadowed(patches.size(), 0.0);
 
-  const auto compute = [&](std::size_t i, int work) {
+  // `hasty`: no time is left to ask what is hidden; anything from none to all may be lit.
+  const auto compute = [&](std::size_t i, int work, bool hasty) {
     const Patch& patch = patches[i];
     double* value = &result.Irradiance[i * bands];
     double* error = &result.Error[i * bands];
@@ -188,8 +203,16 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
         0.5 * std::max(options.RelativeTolerance * basis, options.AbsoluteTolerance * area) /
         magnitude;
       static const std::vector<Segment3> none;
-      LitFlux flux = lights.Cutters[share.Light]->Flux(patch, normal, share.Flux,
-        lights.Lines ? lights.Lines->Crossings(patch.Triangle) : none, allowed, work);
+      LitFlux flux;
+      if (hasty && lights.Lines)
+      {
+        flux = { 0.5 * share.Flux, 0.5 * share.Flux, 0, false };
+      }
+      else
+      {
+        flux = lights.Cutters[share.Light]->Flux(patch, normal, share.Flux,
+          lights.Lines ? lights.Lines->Crossings(patch.Triangle) : none, allowed, work);
+      }
       flux.Error += share.Quadrature;
       rays += flux.Rays;
       lit += flux.Value * magnitude;
@@ -217,15 +240,14 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
     ParallelFor(
       todo.size(), options.Threads, part,
       [&](std::size_t k) {
-        if (round > 0 && options.SecondsLeft > 0.0)
+        if (options.SecondsLeft > 0.0 && clock.Elapsed() > options.SecondsLeft)
         {
-          expired = expired || clock.Elapsed() > options.SecondsLeft;
-          if (expired)
-          {
-            return;
-          }
+          expired = true;
         }
-        compute(todo[k], efforts[round]);
+        if (round == 0 || !expired)
+        {
+          compute(todo[k], efforts[round], expired);
+        }
       },
       5e-6 * static_cast<double>(lights.Size()));
     todo.erase(std::remove_if(
@@ -251,7 +273,7 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   result.Error.assign(points.size() * bands, 0.0);
   DirectOptions plain = options;
   plain.Occlusion = false; // no outlines: a point needs one ray a light
-  const LightSet lights(scene, occluders, plain);
+  const LightSet lights(scene, occluders, plain, { stage.Listener, stage.Begin, stage.Begin, stage.Name });
   if (lights.Size() == 0 || points.empty())
   {
     return result;

@@ -17,7 +17,8 @@ struct DirectOptions
 {
   double RelativeTolerance = 0.01; // of each value's error, relative to the value
   double AbsoluteTolerance = 0.0;  // W/m^2; whichever of the two is met first
-  double SecondsLeft = 0.0;        // refine no further after that many seconds; 0: no limit
+  double SecondsLeft = 0.0;        // after that many seconds nothing more is looked at for shadows:
+                                   // half of the light is taken, with an error of half; 0: no limit
   bool Occlusion = true;
   bool SpotShape = true;   // false: spots light all directions with their axial intensity
   bool Attenuation = true; // false: legacy attenuation is taken as inverse square

@@ -42,7 +42,7 @@ std::vector<Patch> MakePatches(const Scene& scene, int side)
   return patches;
 }
 
-FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches,
+FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches, int side,
   const std::vector<double>& values, const std::vector<double>& errors)
 {
   const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
@@ -52,10 +52,14 @@ FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patch
   std::vector<double> areas(scene.Cells, 0.0);
   for (const Patch& p : patches)
   {
-    areas[p.Cell] += Area(p.Corners);
+    areas[p.Cell] += p.Side == side ? Area(p.Corners) : 0.0;
   }
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
+    if (patches[i].Side != side)
+    {
+      continue;
+    }
     const auto cell = static_cast<std::size_t>(patches[i].Cell);
     const double share = Area(patches[i].Corners) / areas[cell];
     for (std::size_t b = 0; b < bands; ++b)
@@ -135,39 +139,45 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;
   bool timedOut = false;
   double peak = 0.0;
-  for (int side = 0; side < sides; ++side)
-  {
-    const double begin = 0.02 + 0.96 * side / sides;
-    const double middle = begin + (options.Cells ? 0.9 : 0.0) * 0.96 / sides;
-    const double end = 0.02 + 0.96 * (side + 1) / sides;
+  const auto limit = [&] {
     if (options.TimeBudget > 0.0)
     {
       direct.SecondsLeft = std::max(1e-9, options.TimeBudget - result.Convergence.Elapsed());
     }
-    if (options.Cells)
+  };
+  const double middle = options.Cells ? (points.empty() ? 0.98 : 0.8) : 0.02;
+  if (options.Cells)
+  {
+    std::vector<Patch> patches = MakePatches(scene, 0);
+    if (sides == 2)
     {
-      const std::vector<Patch> patches = MakePatches(scene, side);
-      const DirectResult r = ComputeDirectIrradiance(scene, occluders, patches, direct,
-        { monitor, begin, middle, "direct light" }, &result.Convergence);
-      result.Cells[side] = AverageOverCells(scene, patches, r.Irradiance, r.Error);
-      timedOut = timedOut || r.TimedOut;
-      peak = std::max(peak, r.PeakUnshadowed);
+      const std::vector<Patch> backs = MakePatches(scene, 1);
+      patches.insert(patches.end(), backs.begin(), backs.end());
     }
-    if (!points.empty())
+    limit();
+    const DirectResult r = ComputeDirectIrradiance(scene, occluders, patches, direct,
+      { monitor, 0.02, middle, "direct light" }, &result.Convergence);
+    for (int side = 0; side < sides; ++side)
     {
-      std::vector<SurfacePoint> facing = points;
-      if (side == 1)
-      {
-        for (SurfacePoint& p : facing)
-        {
-          p.Normal = -p.Normal;
-        }
-      }
-      DirectResult r = ComputeDirectIrradiance(scene, occluders, facing, direct,
-        { monitor, middle, end, "direct light at points" }, &result.Convergence);
-      peak = std::max(peak, r.PeakUnshadowed);
-      result.Points[side] = { std::move(r.Irradiance), std::move(r.Error) };
+      result.Cells[side] = AverageOverCells(scene, patches, side, r.Irradiance, r.Error);
     }
+    timedOut = r.TimedOut;
+    peak = r.PeakUnshadowed;
+  }
+  for (int side = 0; side < sides && !points.empty(); ++side)
+  {
+    std::vector<SurfacePoint> facing = points;
+    for (SurfacePoint& p : facing)
+    {
+      p.Normal = side == 1 ? -p.Normal : p.Normal;
+    }
+    limit();
+    DirectResult r = ComputeDirectIrradiance(scene, occluders, facing, direct,
+      { monitor, middle + (0.98 - middle) * side / sides,
+        middle + (0.98 - middle) * (side + 1) / sides, "direct light at points" },
+      side == 0 ? &result.Convergence : nullptr);
+    peak = std::max(peak, r.PeakUnshadowed);
+    result.Points[side] = { std::move(r.Irradiance), std::move(r.Error) };
   }
   plan[Effect::Occlusion].Seconds = result.Convergence.Elapsed();
 

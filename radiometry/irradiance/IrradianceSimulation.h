@@ -47,8 +47,8 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
 /// One patch for each receiving triangle, of side 0 or 1; side 1 only where cells are two-sided.
 std::vector<Patch> MakePatches(const Scene& scene, int side);
 
-/// Area-weighted means over the patches of each cell; errors of patches are independent.
-FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches,
+/// Area-weighted means over the patches of one side of each cell; errors of patches are independent.
+FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches, int side,
   const std::vector<double>& values, const std::vector<double>& errors);
 
 /// Bounds what a plan left out, from the greatest unshadowed irradiance that the run met (below 0:

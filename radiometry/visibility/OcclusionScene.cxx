@@ -530,11 +530,12 @@ OcclusionScene::OcclusionScene(const Scene& scene)
 
 OcclusionScene::~OcclusionScene() = default;
 
-const ShadowLines& OcclusionScene::Lines(const Scene& scene, int threads) const
+const ShadowLines& OcclusionScene::Lines(
+  const Scene& scene, int threads, const StageProgress& stage) const
 {
   std::call_once(this->Impl->LinesFlag, [&] {
     this->Impl->Lines = std::make_unique<ShadowLines>(
-      scene, this->Impl->Tree, this->Impl->Center, this->Impl->Scale, threads);
+      scene, this->Impl->Tree, this->Impl->Center, this->Impl->Scale, threads, stage);
   });
   return *this->Impl->Lines;
 }

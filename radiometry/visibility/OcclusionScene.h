@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Scene.h"
 
 #include <cstdint>
@@ -52,7 +53,8 @@ public:
   bool OccludedDirection(const RayEnd& from, const Vec3& direction) const;
   /// The lines at which shadows can begin or end, found when first asked for. `scene`: the one this
   /// was made of.
-  const ShadowLines& Lines(const Scene& scene, int threads) const;
+  const ShadowLines& Lines(
+    const Scene& scene, int threads, const StageProgress& stage = {}) const;
   /// True when a free point (a light, a sensor) lies so near a triangle that its rays must be
   /// decided in double: what RayEnd::Close should be.
   bool TooClose(const Vec3& point) const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/visibility/ShadowLines.h"
 
-#include "radiometry/scene/Parallel.h"
-
 #include <algorithm>
 #include <mutex>
 #include <tbb/parallel_sort.h>
@@ -19,7 +17,8 @@ constexpr double RoundingUnits = 2e-14;
 } // namespace
 
 ShadowLines::ShadowLines(
-  const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads)
+  const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads,
+  const StageProgress& stage)
 {
   double extent = 0.0;
   for (const Vec3& p : scene.Points)
@@ -28,7 +27,8 @@ ShadowLines::ShadowLines(
   }
   this->Rounding = RoundingUnits * extent;
   this->FindEdges(scene);
-  this->FindCrossings(scene, tree, center, scale, threads);
+  Report(stage.Listener, stage.Begin, stage.Name);
+  this->FindCrossings(scene, tree, center, scale, threads, stage);
 }
 
 void ShadowLines::FindEdges(const Scene& scene)
@@ -72,7 +72,8 @@ void ShadowLines::FindEdges(const Scene& scene)
 }
 
 void ShadowLines::FindCrossings(
-  const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads)
+  const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads,
+  const StageProgress& stage)
 {
   std::mutex guard; // taken only where something crosses
   const auto search = [&](std::size_t r) {
@@ -126,7 +127,7 @@ void ShadowLines::FindCrossings(
       this->Cut.emplace(static_cast<std::int32_t>(r), std::move(found));
     }
   };
-  ParallelFor(scene.ReceiverTriangles, threads, {}, search, 1e-6);
+  ParallelFor(scene.ReceiverTriangles, threads, stage, search, 1e-6);
 }
 
 } // namespace radiometry

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/geometry/BoxTree.h"
+#include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Scene.h"
 
 #include <cstdint>
@@ -27,7 +28,8 @@ class ShadowLines
 public:
   /// `tree` holds the boxes of the scene's triangles, in coordinates (p - center) scale.
   ShadowLines(
-    const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads);
+    const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads,
+    const StageProgress& stage);
 
   struct Edge
   {
@@ -51,7 +53,8 @@ public:
 private:
   void FindEdges(const Scene& scene);
   void FindCrossings(
-    const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads);
+    const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads,
+    const StageProgress& stage);
 
   double Rounding = 0.0;
   std::unordered_map<std::int32_t, std::vector<Segment3>> Cut;
