@@ -38,10 +38,14 @@ public:
     this->Cutters.resize(this->Size());
     if (options.Occlusion && !scene.Triangles.empty() && this->Size() > 0)
     {
-      this->Lines = &occluders.Lines(scene, options.Threads, stage);
+      StageProgress lines = stage;
+      lines.End = 0.5 * (stage.Begin + stage.End);
+      this->Lines = &occluders.Lines(scene, options.Threads, lines);
     }
+    StageProgress outlines = stage;
+    outlines.Begin = 0.5 * (stage.Begin + stage.End);
     ParallelFor(
-      this->Size(), options.Threads, stage,
+      this->Size(), options.Threads, outlines,
       [&](std::size_t k) {
         if (this->Lines)
         {
