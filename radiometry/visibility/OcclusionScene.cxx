@@ -2,6 +2,7 @@
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include "radiometry/geometry/BoxTree.h"
+#include "radiometry/visibility/ExactHit.h"
 #include "radiometry/visibility/ShadowLines.h"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -15,107 +16,12 @@
 #include <limits>
 #include <mutex>
 #include <stdexcept>
-#include <tuple>
 #include <string>
 
 namespace radiometry
 {
 namespace
 {
-
-// All lengths below are in units of the scene's box, whose greatest extent lies in (0.5, 1].
-
-// A single-precision ray starts that far behind its true start and ends that far behind its true
-// end, so that rounding (6e-8) cannot make it miss what touches an end. What it finds there
-// without right is rejected in double.
-constexpr double EndMargin = 1.0 / 65536.0;
-// An end closer than this to a triangle's plane lies on it: rounding of coordinates in [-1, 1].
-constexpr double OnPlane = 1e-14;
-// How far outside a triangle, relative to its edge functions, a hit near an end may be before
-// single precision cannot have meant one of its neighbours.
-constexpr double NeighbourMargin = 4e-6;
-
-// An end closer than this to the rim of its own triangle, or to any other triangle, may fall on
-// the wrong side of a neighbour when rounded: such rays are decided in double alone.
-constexpr double Closeness = 5e-7;
-
-/// A ray in double, with what the filter needs to judge a hit.
-struct RayQuery
-{
-  Vec3 Start;
-  Vec3 Direction;              // unit
-  double Length = 0.0;         // may be infinite
-  std::int32_t FromTriangle = -1;
-  std::int32_t ToTriangle = -1;
-  const std::vector<Triangle3>* Triangles = nullptr;
-  const std::vector<Vec3>* Normals = nullptr;
-  bool Ambiguous = false;      // single precision met a triangle's rim near an end
-  bool Exact = false;          // an end is too close to a surface for single precision
-};
-
-enum class Verdict
-{
-  Miss,
-  Hit,
-  RimMiss // outside by so little that a neighbour may have been meant
-};
-
-/// Decides in double whether the open segment of `ray` crosses triangle `t`. With `strict`, the
-/// crossing must be inside the triangle; without, only the plane is judged (single precision has
-/// found the inside, watertight across shared edges).
-Verdict Judge(const RayQuery& ray, std::int32_t t, bool strict, double& distance)
-{
-  if (t == ray.FromTriangle || t == ray.ToTriangle)
-  {
-    return Verdict::Miss;
-  }
-  const Triangle3& v = (*ray.Triangles)[t];
-  const Vec3& n = (*ray.Normals)[t];
-  const double h0 = Dot(n, ray.Start - v[0]);
-  const double rate = Dot(n, ray.Direction);
-  if (std::fabs(h0) <= OnPlane || h0 * rate >= 0.0)
-  {
-    return Verdict::Miss; // starts on the plane or moves away from it
-  }
-  distance = -h0 / rate;
-  if (std::isfinite(ray.Length))
-  {
-    const double h1 = Dot(n, ray.Start + ray.Length * ray.Direction - v[0]);
-    if (std::fabs(h1) <= OnPlane || (h0 > 0.0) == (h1 > 0.0))
-    {
-      return Verdict::Miss;
-    }
-  }
-  if (!strict)
-  {
-    return Verdict::Hit;
-  }
-  // Edge functions: volumes of the ray with each edge; equal signs (or zero) mean inside. An edge
-  // is always taken in the same direction, so that both its triangles compute the same number.
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  double scale = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    Vec3 a = v[k];
-    Vec3 b = v[(k + 1) % 3];
-    const bool swap = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
-    if (swap)
-    {
-      std::swap(a, b);
-    }
-    const double volume = Dot(ray.Direction, Cross(a - ray.Start, b - ray.Start));
-    scale = std::max(scale, Length(b - a));
-    least = std::min(least, swap ? -volume : volume);
-    most = std::max(most, swap ? -volume : volume);
-  }
-  if (least >= 0.0 || most <= 0.0)
-  {
-    return Verdict::Hit;
-  }
-  const double outside = std::min(-least, most);
-  return outside < NeighbourMargin * scale ? Verdict::RimMiss : Verdict::Miss;
-}
 
 #if RTC_VERSION_MAJOR >= 4
 using FilterContext = RTCRayQueryContext;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/visibility/ExactHit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace radiometry
+{
+namespace
+{
+
+// An end closer than this to a triangle's plane lies on it: rounding of coordinates in [-1, 1].
+constexpr double OnPlane = 1e-14;
+// How far outside a triangle, relative to its edge functions, a hit near an end may be before
+// single precision cannot have meant one of its neighbours.
+constexpr double NeighbourMargin = 4e-6;
+
+} // namespace
+
+Verdict Judge(const RayQuery& ray, std::int32_t t, bool strict, double& distance)
+{
+  if (t == ray.FromTriangle || t == ray.ToTriangle)
+  {
+    return Verdict::Miss;
+  }
+  const Triangle3& v = (*ray.Triangles)[t];
+  const Vec3& n = (*ray.Normals)[t];
+  const double h0 = Dot(n, ray.Start - v[0]);
+  const double rate = Dot(n, ray.Direction);
+  if (std::fabs(h0) <= OnPlane || h0 * rate >= 0.0)
+  {
+    return Verdict::Miss; // starts on the plane or moves away from it
+  }
+  distance = -h0 / rate;
+  if (std::isfinite(ray.Length))
+  {
+    const double h1 = Dot(n, ray.Start + ray.Length * ray.Direction - v[0]);
+    if (std::fabs(h1) <= OnPlane || (h0 > 0.0) == (h1 > 0.0))
+    {
+      return Verdict::Miss;
+    }
+  }
+  if (!strict)
+  {
+    return Verdict::Hit;
+  }
+  // Edge functions: volumes of the ray with each edge; equal signs (or zero) mean inside. An edge
+  // is always taken in the same direction, so that both its triangles compute the same number.
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  double scale = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    Vec3 a = v[k];
+    Vec3 b = v[(k + 1) % 3];
+    const bool swap = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
+    if (swap)
+    {
+      std::swap(a, b);
+    }
+    const double volume = Dot(ray.Direction, Cross(a - ray.Start, b - ray.Start));
+    scale = std::max(scale, Length(b - a));
+    least = std::min(least, swap ? -volume : volume);
+    most = std::max(most, swap ? -volume : volume);
+  }
+  if (least >= 0.0 || most <= 0.0)
+  {
+    return Verdict::Hit;
+  }
+  const double outside = std::min(-least, most);
+  return outside < NeighbourMargin * scale ? Verdict::RimMiss : Verdict::Miss;
+}
+
+} // namespace radiometry
