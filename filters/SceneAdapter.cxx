@@ -96,7 +96,7 @@ void AddPolygon(vtkPolyData* data, const vtkIdType* ids, vtkIdType count, std::i
   vtkNew<vtkPolygon> polygon;
   polygon->Initialize(static_cast<int>(count), ids, data->GetPoints());
   vtkNew<vtkIdList> corners;
-  if (!polygon->NonDegenerateTriangulate(corners) && !polygon->Triangulate(corners))
+  if (!polygon->NonDegenerateTriangulate(corners) && !polygon->EarCutTriangulation(corners))
   {
     return; // without area, or crossing itself: counted, gets 0
   }

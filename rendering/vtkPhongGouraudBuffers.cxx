@@ -22,6 +22,9 @@
 #include <array>
 #include <cmath>
 
+using vtkradiometry::DataOf;
+using vtkradiometry::DrawnBlock;
+
 namespace
 {
 
@@ -207,16 +210,17 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
   this->FieldOfBack = false;
   this->ConstantInCells = mapper->Shading == vtkPhongGouraudMapper::AUTO;
   bool empty = true;
-  for (auto& data : this->Data)
+  for (const DrawnBlock* drawn : this->Blocks())
   {
-    empty = empty && data.first->GetNumberOfCells() == 0;
-    const BlockField field = this->FindField(data.first);
+    vtkPolyData* block = DataOf(*drawn);
+    empty = empty && block->GetNumberOfCells() == 0;
+    const BlockField field = this->FindField(block);
     if (field.Front)
     {
       (field.OfCells ? this->FieldOfCells : this->FieldOfPoints) = true;
       this->FieldOfBack = this->FieldOfBack || field.Back;
     }
-    this->ConstantInCells = this->ConstantInCells && HasOneNormalPerCell(data.first);
+    this->ConstantInCells = this->ConstantInCells && HasOneNormalPerCell(block);
   }
   const bool wanted = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON ||
     mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
@@ -231,45 +235,45 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
 }
 
 void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* act,
-  vtkCompositeMapperHelperData* hdata, vtkIdType& flatIndex, std::vector<unsigned char>& colors,
+  DrawnBlock* drawn, vtkIdType& flatIndex, std::vector<unsigned char>& colors,
   std::vector<float>& norms)
 {
-  vtkDataArray* points = hdata->Data->GetPoints()->GetData();
+  vtkPolyData* block = DataOf(*drawn);
+  vtkDataArray* points = block->GetPoints()->GetData();
   vtkIdType offset = 0;
   vtkIdType before = 0;
   vtkIdType after = 0;
   this->VBOs->ArrayExists("vertexMC", points, offset, before);
-  this->Superclass::AppendOneBufferObject(ren, act, hdata, flatIndex, colors, norms);
+  this->Superclass::AppendOneBufferObject(ren, act, drawn, flatIndex, colors, norms);
   this->VBOs->ArrayExists("vertexMC", points, offset, after);
   if (this->FieldOfPoints)
   {
-    this->AppendField(hdata, after > before);
+    this->AppendField(block, after > before);
   }
-  vtkPolyData* block = hdata->Data;
   vtkCellArray* prims[4] = { block->GetVerts(), block->GetLines(), block->GetPolys(),
     block->GetStrips() };
-  hdata->CellCellMap->Update(prims, act->GetProperty()->GetRepresentation(), block->GetPoints());
+  drawn->CellCellMap->Update(prims, act->GetProperty()->GetRepresentation(), block->GetPoints());
 }
 
-void vtkPhongGouraudHelper::AppendField(vtkCompositeMapperHelperData* hdata, bool newPoints)
+void vtkPhongGouraudHelper::AppendField(vtkPolyData* block, bool newPoints)
 {
-  const BlockField found = this->FindField(hdata->Data);
+  const BlockField found = this->FindField(block);
   vtkDataArray* front = found.OfCells ? nullptr : found.Front;
   vtkDataArray* back = found.OfCells || !found.Back ? front : found.Back;
-  vtkDataArray* points = hdata->Data->GetPoints()->GetData();
+  vtkDataArray* points = block->GetPoints()->GetData();
   if (!newPoints)
   {
     // VTK draws blocks that share their points from one copy of them; so must their field be.
     if (this->FieldOfShared[points] != front)
     {
-      vtkErrorWithObjectMacro(this->Mapper(),
-        << "two blocks share one array of points but not the field \""
-        << this->Mapper()->FieldArrayName << "\": give each its own points");
+      vtkErrorWithObjectMacro(
+        this->Mapper(), << "two blocks share one array of points but not the field \""
+                        << this->Mapper()->FieldArrayName << "\": give each its own points");
     }
     return;
   }
   this->FieldOfShared[points] = front;
-  const vtkIdType count = hdata->Data->GetNumberOfPoints();
+  const vtkIdType count = block->GetNumberOfPoints();
   this->AppendPointField("radiometryFieldMC", front, count);
   if (this->FieldOfBack)
   {
@@ -308,7 +312,8 @@ void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
   {
     this->FieldBuffer.Free();
   }
-  if (this->Data.empty() || (!frames && !fields))
+  const std::vector<DrawnBlock*> blocks = this->Blocks();
+  if (blocks.empty() || (!frames && !fields))
   {
     return;
   }
@@ -325,18 +330,14 @@ void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
     scale = { f[0], f[1], f[2] };
   }
 
-  std::size_t total = 0;
-  for (auto& data : this->Data)
-  {
-    total = static_cast<std::size_t>(data.second->CellCellMap->GetFinalOffset());
-  }
+  const auto total = static_cast<std::size_t>(blocks.back()->CellCellMap->GetFinalOffset());
   std::vector<float> frameTexels(frames ? 8 * total : 0, 0.0f);
   const std::size_t sides = this->FieldOfBack ? 2 : 1;
   std::vector<float> fieldTexels(fields ? 4 * sides * total : 0, 0.0f);
-  for (auto& data : this->Data)
+  for (DrawnBlock* drawn : blocks)
   {
-    vtkPolyData* block = data.first;
-    vtkOpenGLCellToVTKCellMap* map = data.second->CellCellMap;
+    vtkPolyData* block = DataOf(*drawn);
+    vtkOpenGLCellToVTKCellMap* map = drawn->CellCellMap;
     const vtkIdType* offsets = map->GetPrimitiveOffsets();
     const BlockField field = this->FindField(block);
     if (fields && field.OfCells)

@@ -63,6 +63,16 @@ vtkPhongGouraudMapper* vtkPhongGouraudHelper::Mapper() const
   return static_cast<vtkPhongGouraudMapper*>(this->Parent);
 }
 
+std::vector<vtkradiometry::DrawnBlock*> vtkPhongGouraudHelper::Blocks() const
+{
+  std::vector<vtkradiometry::DrawnBlock*> blocks;
+  for (const auto& entry : this->vtkPhongGouraudBlocks)
+  {
+    blocks.push_back(&*entry.second); // a plain pointer in VTK 9.2, std::unique_ptr in 9.3
+  }
+  return blocks;
+}
+
 //------------------------------------------------------------------------------
 // What is drawn, and what it needs
 //------------------------------------------------------------------------------

@@ -12,11 +12,7 @@
 #include "LightCollector.h"
 #include "ShaderTemplate.h"
 
-#include "vtkHardwareSelector.h" // the helper's header needs it before itself
-#include "vtkOpenGLCellToVTKCellMap.h"
-#include "vtkStateStorage.h"
-
-#include "vtkCompositeMapperHelper2.h"
+#include "vtkPhongGouraudBase.h"
 
 #include <array>
 #include <map>
@@ -27,11 +23,11 @@ class vtkOpenGLBufferObject;
 class vtkPhongGouraudMapper;
 class vtkTextureObject;
 
-class vtkPhongGouraudHelper : public vtkCompositeMapperHelper2
+class vtkPhongGouraudHelper : public vtkradiometry::HelperBase
 {
 public:
   static vtkPhongGouraudHelper* New();
-  vtkTypeMacro(vtkPhongGouraudHelper, vtkCompositeMapperHelper2);
+  vtkTypeMacro(vtkPhongGouraudHelper, vtkradiometry::HelperBase);
 
   void RenderPiece(vtkRenderer* ren, vtkActor* act) override;
   void ReleaseGraphicsResources(vtkWindow* win) override;
@@ -57,7 +53,7 @@ protected:
 
   bool GetNeedToRebuildBufferObjects(vtkRenderer* ren, vtkActor* act) override;
   void BuildBufferObjects(vtkRenderer* ren, vtkActor* act) override;
-  void AppendOneBufferObject(vtkRenderer* ren, vtkActor* act, vtkCompositeMapperHelperData* hdata,
+  void AppendOneBufferObject(vtkRenderer* ren, vtkActor* act, vtkradiometry::DrawnBlock* drawn,
     vtkIdType& flatIndex, std::vector<unsigned char>& colors, std::vector<float>& norms) override;
   void RenderPieceStart(vtkRenderer* ren, vtkActor* act) override;
   void RenderPieceFinish(vtkRenderer* ren, vtkActor* act) override;
@@ -77,6 +73,9 @@ private:
     void Free();
   };
 
+  /// The blocks in the order in which they are drawn.
+  std::vector<vtkradiometry::DrawnBlock*> Blocks() const;
+
   std::array<FloatBuffer*, 5> Buffers()
   {
     return { { &this->LightBuffer, &this->FrameBuffer, &this->FieldBuffer, &this->MaterialBuffer,
@@ -91,7 +90,7 @@ private:
   /// Everything that decides the text of the shaders.
   vtkradiometry::ShaderFeatures Needs(vtkRenderer* ren, vtkActor* act);
   void CollectLights(vtkRenderer* ren, vtkActor* act);
-  void AppendField(vtkCompositeMapperHelperData* hdata, bool newPoints);
+  void AppendField(vtkPolyData* block, bool newPoints);
   void BuildCellBuffers(vtkRenderer* ren, vtkActor* act);
   void BuildMaterials(vtkRenderer* ren, vtkActor* act);
   /// The field of a block and its back's (the front's where it has none of its own).

@@ -15,9 +15,9 @@ vtkInformationKeyRestrictedMacro(vtkPhongGouraudMapper, LIGHT_DATA, ObjectBase, 
 vtkPhongGouraudMapper::vtkPhongGouraudMapper() = default;
 vtkPhongGouraudMapper::~vtkPhongGouraudMapper() = default;
 
-vtkCompositeMapperHelper2* vtkPhongGouraudMapper::CreateHelper()
+vtkPhongGouraudProduct* vtkPhongGouraudMapper::vtkPhongGouraudFactory()
 {
-  return vtkPhongGouraudHelper::New();
+  return vtkradiometry::NewProduct<vtkPhongGouraudHelper>();
 }
 
 void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)

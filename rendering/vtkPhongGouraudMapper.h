@@ -20,7 +20,7 @@
 #ifndef vtkPhongGouraudMapper_h
 #define vtkPhongGouraudMapper_h
 
-#include "vtkCompositePolyDataMapper2.h"
+#include "vtkPhongGouraudBase.h"
 #include "vtkRadiometryRenderingModule.h" // for export macro
 #include "vtkSmartPointer.h"              // for ivars
 
@@ -29,11 +29,11 @@
 class vtkInformationObjectBaseKey;
 class vtkPolyData;
 
-class VTKRADIOMETRYRENDERING_EXPORT vtkPhongGouraudMapper : public vtkCompositePolyDataMapper2
+class VTKRADIOMETRYRENDERING_EXPORT vtkPhongGouraudMapper : public vtkPhongGouraudMapperBase
 {
 public:
   static vtkPhongGouraudMapper* New();
-  vtkTypeMacro(vtkPhongGouraudMapper, vtkCompositePolyDataMapper2);
+  vtkTypeMacro(vtkPhongGouraudMapper, vtkPhongGouraudMapperBase);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -239,7 +239,7 @@ protected:
   vtkPhongGouraudMapper();
   ~vtkPhongGouraudMapper() override;
 
-  vtkCompositeMapperHelper2* CreateHelper() override;
+  vtkPhongGouraudProduct* vtkPhongGouraudFactory() override;
 
   friend class vtkPhongGouraudHelper;
 

@@ -165,7 +165,8 @@ void vtkPhongGouraudHelper::BuildMaterials(vtkRenderer* ren, vtkActor* act)
 {
   this->SpecularMaterials = false;
   this->EmittingMaterials = false;
-  if (this->Mapper()->FieldMode != vtkPhongGouraudMapper::FIELD_MATERIALS || this->Data.empty() ||
+  const std::vector<vtkradiometry::DrawnBlock*> blocks = this->Blocks();
+  if (this->Mapper()->FieldMode != vtkPhongGouraudMapper::FIELD_MATERIALS || blocks.empty() ||
     act->GetProperty()->GetRepresentation() != VTK_SURFACE)
   {
     this->MaterialBuffer.Free();
@@ -175,10 +176,10 @@ void vtkPhongGouraudHelper::BuildMaterials(vtkRenderer* ren, vtkActor* act)
   std::map<Material, int, ByBytes> numbers; // few: most cells share theirs
   std::vector<float> texels;
   std::vector<float> ofTriangle;
-  for (auto& data : this->Data)
+  for (vtkradiometry::DrawnBlock* drawn : blocks)
   {
-    const BlockMaterials materials(data.first, act);
-    vtkOpenGLCellToVTKCellMap* map = data.second->CellCellMap;
+    const BlockMaterials materials(vtkradiometry::DataOf(*drawn), act);
+    vtkOpenGLCellToVTKCellMap* map = drawn->CellCellMap;
     ofTriangle.resize(4 * static_cast<std::size_t>(map->GetFinalOffset()), 0.0f);
     const std::size_t begin = static_cast<std::size_t>(map->GetPrimitiveOffsets()[0]);
     for (std::size_t i = 0; i < map->GetSize(); ++i)
