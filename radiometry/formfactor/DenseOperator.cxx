@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/DenseOperator.h"
 
+#include "radiometry/formfactor/ClosureCorrection.h"
 #include "radiometry/formfactor/PairVisibility.h"
 #include "radiometry/formfactor/SymmetricTiles.h"
 #include "radiometry/geometry/Sampling.h"
@@ -107,7 +108,11 @@ struct DenseOperator::Internals
     const ExchangeOptions& options, bool occlusion, const StageProgress& stage);
   void FindClosed(const OcclusionScene& occluders, const ElementSet& elements,
     const ExchangeOptions& options, const StageProgress& stage, std::vector<std::uint8_t>& closed);
-  void Close(const std::vector<std::uint8_t>& closed);
+  void Close(const std::vector<std::uint8_t>& closed)
+  {
+    this->Lambda = LeastClosure([this](const double* x, double* out) { this->Multiply(x, out); },
+      this->Areas, closed, this->Report.LargestChange);
+  }
   double WorstDefect(const std::vector<std::uint8_t>& closed) const;
 };
 
@@ -256,87 +261,6 @@ double DenseOperator::Internals::WorstDefect(const std::vector<std::uint8_t>& cl
     }
   }
   return worst;
-}
-
-/// Least change sum dS^2/S with dS symmetric gives dS_ij = S_ij (l_i + l_j), and the wanted sums
-/// give (diag(r) + S) l = A - r over the closed rows: conjugate gradients, twice for rounding.
-void DenseOperator::Internals::Close(const std::vector<std::uint8_t>& closed)
-{
-  const std::vector<double> one(this->N, 1.0);
-  std::vector<double> sums(this->N), defect(this->N), product(this->N);
-  this->Lambda.clear();
-  this->Multiply(one.data(), sums.data());
-  const std::vector<double> original = sums;
-  std::vector<double> lambda(this->N, 0.0);
-  for (int pass = 0; pass < 3; ++pass)
-  {
-    double size = 0.0;
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      defect[i] = closed[i] ? this->Areas[i] - sums[i] : 0.0;
-      size += defect[i] * defect[i] / this->Areas[i];
-    }
-    if (size == 0.0)
-    {
-      break;
-    }
-    // Preconditioned by the diagonal.
-    std::vector<double> x(this->N, 0.0), r = defect, z(this->N), p(this->N);
-    double rz = 0.0;
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      z[i] = closed[i] && original[i] > 0.0 ? r[i] / original[i] : 0.0;
-      p[i] = z[i];
-      rz += r[i] * z[i];
-    }
-    const double goal = 1e-28 * rz;
-    for (int iteration = 0; iteration < 100 && rz > goal; ++iteration)
-    {
-      this->Multiply(p.data(), product.data());
-      double pq = 0.0;
-      for (std::size_t i = 0; i < this->N; ++i)
-      {
-        product[i] = closed[i] ? product[i] + original[i] * p[i] : 0.0;
-        pq += p[i] * product[i];
-      }
-      if (!(pq > 1e-300))
-      {
-        break;
-      }
-      const double alpha = rz / pq;
-      double next = 0.0;
-      for (std::size_t i = 0; i < this->N; ++i)
-      {
-        x[i] += alpha * p[i];
-        r[i] -= alpha * product[i];
-        z[i] = closed[i] && original[i] > 0.0 ? r[i] / original[i] : 0.0;
-        next += r[i] * z[i];
-      }
-      const double beta = next / rz;
-      rz = next;
-      for (std::size_t i = 0; i < this->N; ++i)
-      {
-        p[i] = z[i] + beta * p[i];
-      }
-    }
-    double greatest = 0.0;
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      greatest = std::max(greatest, 2.0 * std::abs(lambda[i] + x[i]));
-    }
-    // An exchange must stay positive; a larger change means that the row is not what it seems.
-    if (greatest > 0.5)
-    {
-      break;
-    }
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      lambda[i] += x[i];
-    }
-    this->Lambda = lambda;
-    this->Report.LargestChange = greatest;
-    this->MultiplyCorrected(one.data(), sums.data());
-  }
 }
 
 std::size_t DenseOperator::LeastBytes(std::size_t n)
