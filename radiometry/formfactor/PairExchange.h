@@ -44,7 +44,7 @@ struct ExchangePatch
 ///           integrated by the double-exponential rule, so that coinciding, touching and nearly
 ///           touching edges are integrated and not sampled
 ///   Limits  scale-free: sizes, gaps and distances enter as ratios only. Error includes rounding
-///   Cost    10 ns (far, 1 % ) to 0.1 ms (sharing an edge, 1e-10)
+///   Cost    0.15 us (far, 1 %), 5 us (near, 1 %), 25 us (touching, 1e-6)
 ///   Source  Sparrow (1963), a new and simpler formulation for radiative angle factors, eq. 9
 PairExchangeResult PairExchange(
   const ExchangePatch& i, const ExchangePatch& j, double relativeTolerance = 1e-6);
