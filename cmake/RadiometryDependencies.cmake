@@ -12,18 +12,7 @@ pkg_check_modules(OCIO REQUIRED IMPORTED_TARGET GLOBAL OpenColorIO>=2.1)
 
 set(VTKRADIOMETRY_HAVE_PARAVIEW OFF)
 if (VTKRADIOMETRY_USE_PARAVIEW)
-  # Debian 13's ParaView 5.13 exports Python targets under names that its files do not have; the
-  # variables below switch that check off (CMake 3.28 and later) and do nothing elsewhere.
-  file(GLOB _pv_python_targets
-    "/usr/lib/*/cmake/paraview-*/vtk/VTKPython-targets-*.cmake"
-    "/usr/lib/*/cmake/paraview-*/ParaViewPython*-targets-*.cmake")
-  foreach (_file IN LISTS _pv_python_targets)
-    file(STRINGS "${_file}" _lines REGEX "_cmake_import_check_targets")
-    string(REGEX MATCHALL "[A-Za-z0-9_]+::[A-Za-z0-9_]+" _names "${_lines}")
-    foreach (_name IN LISTS _names)
-      set("_cmake_import_check_xcframework_for_${_name}" "${CMAKE_SOURCE_DIR}")
-    endforeach ()
-  endforeach ()
+  include(RadiometryDebianParaView)
   # Without COMPONENTS, paraview-dev wants some forty more -dev packages.
   find_package(ParaView QUIET COMPONENTS RemotingViews RemotingApplication)
   if (ParaView_FOUND)

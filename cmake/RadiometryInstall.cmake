@@ -24,7 +24,10 @@ configure_package_config_file(
 write_basic_package_version_file(
   "${CMAKE_BINARY_DIR}/${_destination}/vtkRadiometryConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
+configure_file("${CMAKE_CURRENT_LIST_DIR}/RadiometryDebianParaView.cmake"
+  "${CMAKE_BINARY_DIR}/${_destination}/RadiometryDebianParaView.cmake" COPYONLY)
 install(FILES
+  "${CMAKE_BINARY_DIR}/${_destination}/RadiometryDebianParaView.cmake"
   "${CMAKE_BINARY_DIR}/${_destination}/vtkRadiometryConfig.cmake"
   "${CMAKE_BINARY_DIR}/${_destination}/vtkRadiometryConfigVersion.cmake"
   DESTINATION "${_destination}")

@@ -89,12 +89,20 @@ void vtkPhongGouraudHelper::ReplaceShaderEdges(ShaderMap shaders, vtkRenderer* r
   if (this->Ours)
   {
     // VTK mixes the edges into the material, before light; here they lie on the finished colour.
+    // Their weight is emix, from VTK 9.3 on times the edges' opacity.
     std::string source = shaders[vtkShader::Fragment]->GetSource();
-    vtkShaderProgram::Substitute(
-      source, "  diffuseColor = mix(diffuseColor, vec3(0.0), emix);\n", "");
-    vtkShaderProgram::Substitute(
-      source, "  ambientColor = mix( ambientColor, edgeColor, emix);\n", "");
-    shaders[vtkShader::Fragment]->SetSource(source);
+    const std::string before = "  diffuseColor = mix(diffuseColor, vec3(0.0), ";
+    const std::size_t begin = source.find(before);
+    const std::size_t end = source.find(");\n", begin);
+    if (begin != std::string::npos && end != std::string::npos)
+    {
+      const std::string weight =
+        source.substr(begin + before.size(), end - begin - before.size());
+      source.replace(begin, end + 3 - begin, "  emix = " + weight + ";\n");
+      vtkShaderProgram::Substitute(
+        source, "  ambientColor = mix( ambientColor, edgeColor, " + weight + ");\n", "");
+      shaders[vtkShader::Fragment]->SetSource(source);
+    }
   }
 }
 

@@ -73,8 +73,9 @@ def light_at(wavelength):
 
 
 def rec709(values):
-    xyz = [sum(observer(w)[i] * v for w, v in zip(WAVELENGTHS, values)) for i in range(3)]
-    return [sum(m * x for m, x in zip(row, xyz)) for row in TO_REC709]
+    # fsum, because Python 3.12 changed how sum() rounds: the file is the same from any version.
+    xyz = [math.fsum(observer(w)[i] * v for w, v in zip(WAVELENGTHS, values)) for i in range(3)]
+    return [math.fsum(m * x for m, x in zip(row, xyz)) for row in TO_REC709]
 
 
 def band_reflectance(text):

@@ -3,6 +3,8 @@
 
 #include "LightGlyphs.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkMapper.h"
@@ -28,6 +30,22 @@ std::map<vtkRenderer*, Offers>& AllOffers()
 {
   static std::map<vtkRenderer*, Offers> offers;
   return offers;
+}
+
+/// The polydata of a tree, or the data itself: not every tree may stand in a multi-block data set.
+void AppendBlocks(vtkDataObject* data, vtkMultiBlockDataSet* blocks)
+{
+  auto* tree = vtkCompositeDataSet::SafeDownCast(data);
+  if (!tree)
+  {
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), data);
+    return;
+  }
+  auto it = vtk::TakeSmartPointer(tree->NewIterator());
+  for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+  {
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), it->GetCurrentDataObject());
+  }
 }
 
 } // namespace
@@ -68,7 +86,9 @@ void vtkRadiometricLightRepresentation::UpdateGlyphs(vtkDataObject* lights)
 
 void vtkRadiometricLightRepresentation::Offer(vtkRenderer* renderer, vtkDataObject* lights)
 {
-  if (!renderer || (this->OfferedTo == renderer && this->Offered == lights))
+  const vtkMTimeType time = lights ? lights->GetMTime() : 0;
+  if (!renderer ||
+    (this->OfferedTo == renderer && this->Offered == lights && this->OfferedTime == time))
   {
     return;
   }
@@ -83,6 +103,7 @@ void vtkRadiometricLightRepresentation::Offer(vtkRenderer* renderer, vtkDataObje
   }
   this->OfferedTo = lights ? renderer : nullptr;
   this->Offered = lights;
+  this->OfferedTime = time;
 
   vtkInformation* info = renderer->GetInformation();
   if (offers.empty())
@@ -95,10 +116,9 @@ void vtkRadiometricLightRepresentation::Offer(vtkRenderer* renderer, vtkDataObje
     return;
   }
   vtkNew<vtkMultiBlockDataSet> together;
-  unsigned int block = 0;
   for (const auto& offer : offers)
   {
-    together->SetBlock(block++, offer.second);
+    AppendBlocks(offer.second, together);
   }
   if (!info)
   {

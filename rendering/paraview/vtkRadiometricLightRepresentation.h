@@ -64,6 +64,7 @@ protected:
   bool Illuminate = true;
   vtkWeakPointer<vtkRenderer> OfferedTo;
   vtkSmartPointer<vtkDataObject> Offered;
+  vtkMTimeType OfferedTime = 0;
   // The glyphs, and what they were made of.
   vtkNew<vtkPolyData> Glyphs;
   vtkSmartPointer<vtkDataObject> GlyphsOf;

@@ -27,7 +27,8 @@ def files(root=ROOT):
         folders[:] = [
             f for f in folders if not f.startswith(("build", "out", ".git", "__pycache__"))
         ]
-        found += [os.path.relpath(os.path.join(folder, name), root) for name in names]
+        found += [os.path.relpath(os.path.join(folder, name), root) for name in names
+                  if name != ".git"]  # a worktree's is a file
     return sorted(found)
 
 
