@@ -121,6 +121,27 @@ public:
   }
 };
 
+/// Keeps the depth that its delegate leaves to whoever draws next.
+class DepthPass : public vtkRenderPass
+{
+public:
+  static DepthPass* New() { VTK_STANDARD_NEW_BODY(DepthPass); }
+  vtkTypeMacro(DepthPass, vtkRenderPass);
+  vtkSmartPointer<vtkRenderPass> Delegate;
+
+  void Render(const vtkRenderState* s) override
+  {
+    this->Delegate->Render(s);
+    this->Depth.resize(size * size);
+    s->GetRenderer()->GetRenderWindow()->GetZbufferData(
+      0, 0, size - 1, size - 1, this->Depth.data());
+  }
+  float At(int x, int y) const { return this->Depth[y * size + x]; }
+
+private:
+  std::vector<float> Depth;
+};
+
 struct Errors
 {
   vtkNew<vtkCallbackCommand> Command;
