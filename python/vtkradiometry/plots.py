@@ -62,7 +62,7 @@ def write_png(path, tables, tolerance, title, size=(1280, 720)):
     import matplotlib
 
     matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib import pyplot, ticker
 
     # 10 inches wide at any number of pixels, so that the text keeps its share of the picture.
     figure, axes = pyplot.subplots(figsize=(10.0, max(10.0 * size[1] / size[0], 4.0)),
@@ -81,6 +81,8 @@ def write_png(path, tables, tolerance, title, size=(1280, 720)):
     if drawn:
         axes.set_xscale("log")
         axes.set_ylim(bottom=100.0 * floor)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(ticker.FormatStrFormatter("%g"))  # 0.01, not 10^-2
     else:
         axes.text(0.5, 0.6, "every value is exact to rounding: no error to show",
                   transform=axes.transAxes, horizontalalignment="center")
