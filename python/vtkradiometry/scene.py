@@ -102,7 +102,7 @@ class Scene:
         return rows
 
 
-def _check(path, surface, lights):
+def _check(path, surface, lights, radiosity):
     """Refuses what cannot be computed with; returns what the user should be warned of."""
     if surface.GetNumberOfCells() == 0:
         raise InputFault(f"{path}: no triangles in the scene")
@@ -117,6 +117,8 @@ def _check(path, surface, lights):
     if not (lit or emits):
         return ["Lights: nothing gives light, neither a light (KHR_lights_punctual) nor an emissive "
                 "material: every value is 0."]
+    if emits and not radiosity:
+        return ["Emission: --no-radiosity leaves out what surfaces emit; the effect plan bounds it."]
     return []
 
 
@@ -165,7 +167,7 @@ def read(path, options, progress):
     surface, lights = vtkPolyData(), vtkPolyData()
     surface.ShallowCopy(reader.GetOutputDataObject(0))
     lights.ShallowCopy(reader.GetOutputDataObject(1))
-    warnings = _check(path, surface, lights)
+    warnings = _check(path, surface, lights, options.radiosity)
     for words in warnings:
         sys.stderr.write(f"run: warning: {path}: {words}\n")
     assumptions = [reader.GetAssumption(k) for k in range(reader.GetNumberOfAssumptions())]
