@@ -100,8 +100,17 @@ std::vector<radiometry::LightRecord> ReadLights(
 {
   using radiometry::InputError;
   const vtkIdType n = input->GetNumberOfPoints();
-  const auto find = [&](const char* name, int components) {
+  const auto sized = [&](const char* name) {
     vtkDataArray* array = input->GetPointData()->GetArray(name);
+    if (array && array->GetNumberOfTuples() != n)
+    {
+      throw InputError(prefix + name, -1, std::to_string(array->GetNumberOfTuples()) + " tuples",
+        std::to_string(n) + ", one a light");
+    }
+    return array;
+  };
+  const auto find = [&](const char* name, int components) {
+    vtkDataArray* array = sized(name);
     if (array && array->GetNumberOfComponents() != components)
     {
       throw InputError(prefix + name, -1,
@@ -118,7 +127,7 @@ std::vector<radiometry::LightRecord> ReadLights(
   vtkDataArray* attenuation = find(names::Attenuation, 3);
   vtkDataArray* enabled = find(names::LightEnabled, 1);
   vtkDataArray* attached = find(names::AttachedTo, 1);
-  vtkDataArray* intensity = input->GetPointData()->GetArray(names::Intensity);
+  vtkDataArray* intensity = sized(names::Intensity);
   if (n > 0 && !intensity)
   {
     throw InputError(prefix + names::Intensity, -1, "missing",

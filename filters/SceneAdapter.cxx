@@ -106,6 +106,19 @@ void AddPolygon(vtkPolyData* data, const vtkIdType* ids, vtkIdType count, std::i
   }
 }
 
+void CheckIds(const SceneAdapter::Block& block, const char* cells, vtkIdType cell,
+  const vtkIdType* ids, vtkIdType count, vtkIdType points)
+{
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    if (ids[k] < 0 || ids[k] >= points)
+    {
+      throw InputError(block.Name + cells, cell, static_cast<double>(ids[k]),
+        "the number of a point, below " + std::to_string(points));
+    }
+  }
+}
+
 Triangulation Triangulate(const SceneAdapter::Block& block)
 {
   Triangulation out;
@@ -130,6 +143,7 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
     polygons->GetCurrentCell(n, ids);
+    CheckIds(block, "Polys", cell - static_cast<vtkIdType>(block.FirstCell), ids, n, count);
     for (vtkIdType k = 0; k < n; ++k)
     {
       const Vec3& p = out.Points[ids[k]];
@@ -147,6 +161,7 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
     strips->GetCurrentCell(n, ids);
+    CheckIds(block, "Strips", cell - static_cast<vtkIdType>(block.FirstCell), ids, n, count);
     for (vtkIdType k = 0; k + 2 < n; ++k)
     {
       const vtkIdType a = k % 2 == 0 ? ids[k] : ids[k + 1];
@@ -163,6 +178,11 @@ vtkDataArray* FindArray(const SceneAdapter::Block& block, const std::string& nam
 {
   if (vtkDataArray* array = block.Data->GetCellData()->GetArray(name.c_str()))
   {
+    if (array->GetNumberOfTuples() != block.Cells)
+    {
+      throw InputError(block.Name + name, -1, std::to_string(array->GetNumberOfTuples()) + " tuples",
+        std::to_string(block.Cells) + ", one a cell");
+    }
     return array;
   }
   vtkDataArray* array =
@@ -170,7 +190,7 @@ vtkDataArray* FindArray(const SceneAdapter::Block& block, const std::string& nam
   if (array && array->GetNumberOfTuples() != 1)
   {
     throw InputError(block.Name + name + " (field data)", -1,
-      static_cast<double>(array->GetNumberOfTuples()) , "one tuple, for the whole block");
+      std::to_string(array->GetNumberOfTuples()) + " tuples", "one tuple, for the whole block");
   }
   return array;
 }

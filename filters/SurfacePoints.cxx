@@ -77,6 +77,14 @@ void SurfacePoints::AddSensors(
 {
   namespace names = radiometry::names;
   vtkDataArray* normals = data->GetPointData()->GetArray(names::Normals);
+  if (normals->GetNumberOfComponents() != 3 ||
+    normals->GetNumberOfTuples() != data->GetNumberOfPoints())
+  {
+    throw radiometry::InputError(names::Normals, -1,
+      std::to_string(normals->GetNumberOfTuples()) + " tuples of " +
+        std::to_string(normals->GetNumberOfComponents()) + " components",
+      std::to_string(data->GetNumberOfPoints()) + " tuples of 3, one a sensor");
+  }
   const bool single = data->GetPoints()->GetDataType() == VTK_FLOAT;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {

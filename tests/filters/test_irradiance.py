@@ -375,6 +375,25 @@ def test_bad_input_is_named():
     fails(irradiance(blocks, light), "block 1, DiffuseReflectance[0] = 7")
 
 
+def test_arrays_of_the_wrong_length_and_ids_out_of_range():
+    light = point_light((0, 0, 1), 1.0)
+    data = plane(2)
+    short = numpy_to_vtk(np.zeros(3), deep=True)
+    short.SetName("DiffuseReflectance")
+    data.GetCellData().AddArray(short)
+    fails(irradiance(data, light), "DiffuseReflectance = 3 tuples", "4")
+    light.Update()
+    lights = vtk.vtkPolyData()
+    lights.DeepCopy(light.GetOutput())
+    lights.GetPointData().GetArray("Intensity").SetNumberOfTuples(0)
+    f = irradiance(plane())
+    f.AddLightsData(lights)
+    fails(f, "Intensity = 0 tuples")
+    for bad in (4, -1, 1 << 40):
+        square = polydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (0, 1, 2), (0, 1, bad))
+        fails(irradiance(square, light), f"Polys[1] = {bad:.9g}", "below 4")
+
+
 def test_extreme_intensities():
     for value in (0.0, 1e-300, 1e30, 1e300):
         e = cell_values(irradiance(plane(), sun((0, 0, -1), value)))
