@@ -48,6 +48,7 @@ struct DenseOperator::Internals
   SymmetricTiles<double> Fine;
   SymmetricTiles<float> Coarse;
   std::vector<double> Lambda;  // closure correction: S_ij (1 + Lambda_i + Lambda_j); empty: none
+  std::vector<double> Cap;     // last resort: S_ij Cap_i Cap_j, none above 1; empty: none
   std::vector<double> RowSums; // of F, corrected
   std::vector<double> TruncationShare; // of a row's exchange
   std::vector<MixedPair> Mixed;
@@ -76,6 +77,25 @@ struct DenseOperator::Internals
   /// out = S x for the corrected S.
   void MultiplyCorrected(const double* x, double* out) const
   {
+    if (this->Cap.empty())
+    {
+      this->MultiplyClosed(x, out);
+      return;
+    }
+    std::vector<double> capped(this->N);
+    for (std::size_t i = 0; i < this->N; ++i)
+    {
+      capped[i] = this->Cap[i] * x[i];
+    }
+    this->MultiplyClosed(capped.data(), out);
+    for (std::size_t i = 0; i < this->N; ++i)
+    {
+      out[i] *= this->Cap[i];
+    }
+  }
+  /// out = S x with the closure correction.
+  void MultiplyClosed(const double* x, double* out) const
+  {
     this->Multiply(x, out);
     if (this->Lambda.empty())
     {
@@ -101,7 +121,8 @@ struct DenseOperator::Internals
     const std::size_t offset = (i % Edge) * Edge + j % Edge;
     const double s = this->Double ? this->Fine.Tile(i / Edge, j / Edge)[offset]
                                   : this->Coarse.Tile(i / Edge, j / Edge)[offset];
-    return this->Lambda.empty() ? s : s * (1.0 + this->Lambda[i] + this->Lambda[j]);
+    const double cap = this->Cap.empty() ? 1.0 : this->Cap[i] * this->Cap[j];
+    return cap * (this->Lambda.empty() ? s : s * (1.0 + this->Lambda[i] + this->Lambda[j]));
   }
 
   void Build(const OcclusionScene& occluders, const ElementSet& elements,
@@ -350,6 +371,18 @@ DenseOperator::DenseOperator(const Scene& scene, const OcclusionScene& occluders
       sumRows();
     }
     m.Report.DefectAfter = m.WorstDefect(closed);
+  }
+  // Where faces lie in one another (duplicates, say) what is seen is counted more than once, and no
+  // small change mends that. Rows are then scaled down: the exchange must not make light.
+  const double worst = *std::max_element(m.RowSums.begin(), m.RowSums.end());
+  if (worst > 1.0 + 1e-12)
+  {
+    m.Cap.resize(m.N);
+    for (std::size_t i = 0; i < m.N; ++i)
+    {
+      m.Cap[i] = 1.0 / std::max(1.0, m.RowSums[i]);
+    }
+    sumRows();
   }
 }
 

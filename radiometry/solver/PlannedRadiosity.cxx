@@ -2,6 +2,9 @@
 #include "radiometry/solver/PlannedRadiosity.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace radiometry
 {
@@ -41,6 +44,26 @@ FieldValues RadiosityAt(const Scene& scene, const std::vector<SurfacePoint>& poi
     }
   }
   return out;
+}
+
+/// No light is negative: what the correction of a coarse exchange pushed below zero is 0, and its
+/// error says by how much. A value or an error without a number is never handed out.
+void Complete(FieldValues& field, const char* where)
+{
+  for (std::size_t k = 0; k < field.Values.size(); ++k)
+  {
+    if (!std::isfinite(field.Values[k]) || !std::isfinite(field.Errors[k]))
+    {
+      throw std::runtime_error(std::string("the radiosity of ") + where + " value " +
+        std::to_string(k) + " could not be bounded: the surface reflects more than its mesh can be "
+        "solved for (overlapping faces, or reflectance too near 1)");
+    }
+    if (field.Values[k] < 0.0)
+    {
+      field.Errors[k] -= field.Values[k];
+      field.Values[k] = 0.0;
+    }
+  }
 }
 
 } // namespace
@@ -83,6 +106,14 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
       simulation.IrradianceAt(facing, { monitor, begin, end, "final gather" });
     out.PointRadiosity[side] =
       RadiosityAt(scene, facing, side, options.Emission, out.PointIrradiance[side]);
+  }
+
+  for (int side = 0; side < 2; ++side)
+  {
+    Complete(out.Cells.Irradiance[side], "cell");
+    Complete(out.Cells.Radiosity[side], "cell");
+    Complete(out.PointIrradiance[side], "point");
+    Complete(out.PointRadiosity[side], "point");
   }
 
   for (const auto& [stage, seconds] : out.Cells.Seconds)

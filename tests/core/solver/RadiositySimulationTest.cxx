@@ -491,6 +491,33 @@ TEST(RadiositySimulation, EmptyDarkAndBlack)
   }
 }
 
+TEST(RadiositySimulation, FacesInOneAnotherMakeNoLight)
+{
+  // Every face of a closed box three times over, nearly white: what is seen is counted thrice, and
+  // the exchange must be held to what a hemisphere can hold.
+  test::Mesh mesh;
+  for (int copy = 0; copy < 3; ++copy)
+  {
+    mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 2, true);
+  }
+  Scene scene = mesh.ToScene(0.99);
+  scene.Lights.push_back(PointLight(scene, { 0.4, 0.5, 0.6 }, 1.0));
+  for (const RadiosityMethod method : { RadiosityMethod::Dense, RadiosityMethod::MonteCarlo })
+  {
+    RadiosityOptions options;
+    options.RelativeTolerance = 0.05;
+    options.TimeBudget = 2.0;
+    options.Method = method;
+    const RadiosityResult r = Simulate(scene, options);
+    for (std::size_t k = 0; k < r.Irradiance[0].Values.size(); ++k)
+    {
+      EXPECT_TRUE(std::isfinite(r.Irradiance[0].Values[k]));
+      EXPECT_TRUE(std::isfinite(r.Irradiance[0].Errors[k]));
+      EXPECT_GE(r.Irradiance[0].Values[k], 0.0);
+    }
+  }
+}
+
 TEST(RadiositySimulation, BudgetAndAbort)
 {
   test::Mesh mesh;
