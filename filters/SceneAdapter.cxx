@@ -61,7 +61,7 @@ void Collect(vtkDataObject* data, const std::string& name, std::vector<SceneAdap
   }
   else
   {
-    return;
+    block.Data = vtkSmartPointer<vtkPolyData>::New(); // a table, say: keeps its place, gives nothing
   }
   block.Cells = block.Data->GetNumberOfCells();
   block.Sensors = block.Data->GetNumberOfPolys() == 0 && block.Data->GetNumberOfStrips() == 0 &&

@@ -170,6 +170,13 @@ def test_unstructured_and_composite_input():
     close(array(out.GetBlock(0).GetCellData(), "Irradiance"), np.zeros(9))
     assert array(out.GetBlock(2).GetCellData(), "Irradiance")[0] > 0.0
     assert out.GetBlock(1) is None
+    # What is no dataset keeps its place: results stay with their own block.
+    blocks.SetBlock(1, vtk.vtkTable())
+    f = irradiance(blocks, light)
+    f.Update()
+    out = f.GetOutputDataObject(0)
+    close(array(out.GetBlock(0).GetCellData(), "Irradiance"), np.zeros(9))
+    assert array(out.GetBlock(2).GetCellData(), "Irradiance")[0] > 0.0
 
 
 def test_occluders_only_block():
