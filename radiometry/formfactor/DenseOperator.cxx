@@ -2,6 +2,7 @@
 #include "radiometry/formfactor/DenseOperator.h"
 
 #include "radiometry/formfactor/ClosureCorrection.h"
+#include "radiometry/formfactor/LinkedSets.h"
 #include "radiometry/formfactor/PairVisibility.h"
 #include "radiometry/formfactor/SymmetricTiles.h"
 #include "radiometry/geometry/Sampling.h"
@@ -26,17 +27,6 @@ struct MixedPair
   std::int32_t I, J;
   float Error;
 };
-
-std::int32_t Root(std::vector<std::int32_t>& leader, std::int32_t k)
-{
-  while (leader[static_cast<std::size_t>(k)] != k)
-  {
-    auto& up = leader[static_cast<std::size_t>(k)];
-    up = leader[static_cast<std::size_t>(up)];
-    k = up;
-  }
-  return k;
-}
 
 } // namespace
 
@@ -449,11 +439,7 @@ void DenseOperator::ApplyError(
 std::vector<std::int32_t> DenseOperator::Components() const
 {
   const Internals& m = *this->Impl;
-  std::vector<std::int32_t> leader(m.N);
-  for (std::size_t i = 0; i < m.N; ++i)
-  {
-    leader[i] = static_cast<std::int32_t>(i);
-  }
+  LinkedSets sets(m.N);
   for (std::size_t bi = 0; bi < m.Blocks(); ++bi)
   {
     for (std::size_t bj = bi; bj < m.Blocks(); ++bj)
@@ -464,9 +450,8 @@ std::vector<std::int32_t> DenseOperator::Components() const
           m.Double ? m.Fine.Tile(bi, bj)[k] > 0.0 : m.Coarse.Tile(bi, bj)[k] > 0.0f;
         if (linked)
         {
-          const std::int32_t a = Root(leader, static_cast<std::int32_t>(bi * Edge + k / Edge));
-          const std::int32_t b = Root(leader, static_cast<std::int32_t>(bj * Edge + k % Edge));
-          leader[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+          sets.Join(static_cast<std::int32_t>(bi * Edge + k / Edge),
+            static_cast<std::int32_t>(bj * Edge + k % Edge));
         }
       }
     }
@@ -475,7 +460,7 @@ std::vector<std::int32_t> DenseOperator::Components() const
   std::int32_t next = 0;
   for (std::size_t i = 0; i < m.N; ++i)
   {
-    auto& n = number[static_cast<std::size_t>(Root(leader, static_cast<std::int32_t>(i)))];
+    auto& n = number[static_cast<std::size_t>(sets.Root(static_cast<std::int32_t>(i)))];
     if (n < 0)
     {
       n = next++;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/GroupedOperator.h"
 
+#include "radiometry/formfactor/LinkedSets.h"
+
 #include <cmath>
 #include <utility>
 
@@ -98,19 +100,7 @@ std::vector<std::int32_t> GroupedOperator::Components() const
 {
   // Groups join the components of their members.
   const std::vector<std::int32_t> fine = this->Inner.Components();
-  std::vector<std::int32_t> leader(fine.size());
-  for (std::size_t k = 0; k < leader.size(); ++k)
-  {
-    leader[k] = static_cast<std::int32_t>(k);
-  }
-  const auto find = [&](std::int32_t k) {
-    while (leader[static_cast<std::size_t>(k)] != k)
-    {
-      k = leader[static_cast<std::size_t>(k)] =
-        leader[static_cast<std::size_t>(leader[static_cast<std::size_t>(k)])];
-    }
-    return k;
-  };
+  LinkedSets sets(fine.size());
   std::vector<std::int32_t> first(this->GroupAreas.size(), -1);
   for (std::size_t e = 0; e < fine.size(); ++e)
   {
@@ -121,14 +111,14 @@ std::vector<std::int32_t> GroupedOperator::Components() const
     }
     else
     {
-      leader[static_cast<std::size_t>(find(fine[e]))] = find(f);
+      sets.Join(fine[e], f);
     }
   }
   std::vector<std::int32_t> number(fine.size(), -1), out(first.size());
   std::int32_t next = 0;
   for (std::size_t g = 0; g < first.size(); ++g)
   {
-    auto& label = number[static_cast<std::size_t>(find(first[g]))];
+    auto& label = number[static_cast<std::size_t>(sets.Root(first[g]))];
     if (label < 0)
     {
       label = next++;

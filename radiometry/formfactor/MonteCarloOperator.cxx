@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/MonteCarloOperator.h"
 
+#include "radiometry/formfactor/LinkedSets.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/scene/InputError.h"
 
@@ -13,17 +14,6 @@ namespace
 {
 
 constexpr double MiB = 1024.0 * 1024.0;
-
-std::int32_t Root(std::vector<std::int32_t>& leader, std::int32_t k)
-{
-  while (leader[static_cast<std::size_t>(k)] != k)
-  {
-    auto& up = leader[static_cast<std::size_t>(k)];
-    up = leader[static_cast<std::size_t>(up)];
-    k = up;
-  }
-  return k;
-}
 
 /// Adds what leaves the elements that were hit.
 void SumHits(const std::int32_t* begin, const std::int32_t* end, const double* B, std::size_t bands,
@@ -145,11 +135,7 @@ void MonteCarloOperator::Summarise()
 {
   const std::size_t n = this->Size();
   const std::vector<double>& areas = this->Areas();
-  std::vector<std::int32_t> leader(n);
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    leader[i] = static_cast<std::int32_t>(i);
-  }
+  LinkedSets sets(n);
   std::vector<std::int64_t> met(n, 0);
   std::vector<double> column(n, 0.0);
   for (const Round& round : this->Rounds)
@@ -163,9 +149,7 @@ void MonteCarloOperator::Summarise()
         {
           ++met[i];
           column[static_cast<std::size_t>(hit)] += areas[i] / this->RaysOf[i];
-          const std::int32_t a = Root(leader, static_cast<std::int32_t>(i));
-          const std::int32_t b = Root(leader, hit);
-          leader[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+          sets.Join(static_cast<std::int32_t>(i), hit);
         }
       }
     }
@@ -178,7 +162,7 @@ void MonteCarloOperator::Summarise()
   for (std::size_t i = 0; i < n; ++i)
   {
     this->RowSums[i] = static_cast<double>(met[i]) / std::max(1, this->RaysOf[i]);
-    auto& label = number[static_cast<std::size_t>(Root(leader, static_cast<std::int32_t>(i)))];
+    auto& label = number[static_cast<std::size_t>(sets.Root(static_cast<std::int32_t>(i)))];
     if (label < 0)
     {
       label = static_cast<std::int32_t>(closed.size());

@@ -26,7 +26,6 @@ public:
   double TotalFlux() const;
   /// True for I = 1 in every direction.
   bool Isotropic() const { return this->Exponent == 0.0 && this->CosOuter <= -1.0; }
-  bool Smooth() const { return this->SmoothEdge; }
   /// Cosine of the angle beyond which nothing is sent.
   double CosLimit() const { return this->CosOuter; }
   double CosInner() const { return this->CosInnerEdge; }
