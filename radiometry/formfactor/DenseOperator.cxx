@@ -3,7 +3,7 @@
 
 #include "radiometry/formfactor/ClosureCorrection.h"
 #include "radiometry/formfactor/LinkedSets.h"
-#include "radiometry/formfactor/PairVisibility.h"
+#include "radiometry/visibility/PairVisibility.h"
 #include "radiometry/formfactor/SymmetricTiles.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/scene/InputError.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radiometry/formfactor/ElementSet.h"
-#include "radiometry/formfactor/ExchangeOptions.h"
+#include "radiometry/irradiance/ExchangeOptions.h"
 #include "radiometry/formfactor/FormFactorOperator.h"
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/visibility/OcclusionScene.h"

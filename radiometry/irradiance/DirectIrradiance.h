@@ -20,9 +20,12 @@ struct DirectOptions
   double SecondsLeft = 0.0;        // after that many seconds nothing more is looked at for shadows:
                                    // half of the light is taken, with an error of half; 0: no limit
   bool Occlusion = true;
-  bool SpotShape = true;   // false: spots light all directions with their axial intensity
-  bool Attenuation = true; // false: legacy attenuation is taken as inverse square
-  int Threads = 0;         // 0: all
+  bool SpotShape = true;    // false: spots light all directions with their axial intensity
+  bool Attenuation = true;  // false: legacy attenuation is taken as inverse square
+  bool Environment = true;  // false: environment lights are left out
+  bool Emission = false;    // true: emitting surfaces of the scene light it, too
+  bool Transmission = true; // false: surfaces with Transmittance are opaque
+  int Threads = 0;          // 0: all
 };
 
 struct DirectResult
@@ -36,10 +39,8 @@ struct DirectResult
 };
 
 /// Direct irradiance, averaged over each patch, from the enabled lights of the scene.
-///   Model   E = (1/A) sum_k int V_k I_k(w) cos(theta)/r^2 dA
-///   Exact   (rounding error only) for every light of physical attenuation on a patch that no
-///           silhouette edge crosses as seen from the light; refined to the tolerance elsewhere
-///   Cost    O(patches x lights) closed forms and one ray each, times log(occluders)
+///   Model   E = E_ambient + sum over lights: what BeamIrradiance.h, AreaIrradiance.h and
+///           SkyIrradiance.h say of each kind, in that order; their errors are independent
 ///   Bytes   the same for any number of threads
 DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage = {},
@@ -49,5 +50,9 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
 DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<SurfacePoint>& points, const DirectOptions& options,
   const StageProgress& stage = {}, ConvergenceRecord* record = nullptr);
+
+/// Adds a row of area-weighted mean error to the record, which may be null.
+void RecordDirect(ConvergenceRecord* record, const DirectResult& result,
+  const std::vector<double>& weights, const char* stage);
 
 } // namespace radiometry

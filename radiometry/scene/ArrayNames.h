@@ -30,6 +30,13 @@ inline constexpr char LightEnabled[] = "LightEnabled";
 inline constexpr char AmbientColor[] = "AmbientColor";
 inline constexpr char SpecularColor[] = "SpecularColor";
 inline constexpr char PhotometricWeb[] = "PhotometricWeb";
+inline constexpr char ReferenceDirection[] = "ReferenceDirection";
+inline constexpr char LightTwoSided[] = "LightTwoSided";
+inline constexpr char SkyModel[] = "SkyModel";
+inline constexpr char SkyCoefficients[] = "SkyCoefficients";
+inline constexpr char SunDirection[] = "SunDirection";
+inline constexpr char EnvironmentMap[] = "EnvironmentMap";
+inline constexpr char GlobalAmbient[] = "GlobalAmbient"; // field data, N bands
 inline constexpr char AttachedTo[] = "AttachedTo";
 
 // Results

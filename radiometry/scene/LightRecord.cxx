@@ -58,6 +58,18 @@ double SmoothPart(double co, double ci, double e)
   return d * sum;
 }
 
+/// The unit vector square to `axis` nearest to `reference`; any one where there is none.
+Vec3 SquareTo(const Vec3& axis, const Vec3& reference)
+{
+  const Vec3 square = reference - Dot(axis, reference) * axis;
+  if (Length(square) > 1e-12 * Length(reference))
+  {
+    return Normalized(square);
+  }
+  const Vec3 other = std::fabs(axis.x) < 0.9 ? Vec3{ 1.0, 0.0, 0.0 } : Vec3{ 0.0, 1.0, 0.0 };
+  return Normalized(other - Dot(axis, other) * axis);
+}
+
 } // namespace
 
 double SpotFluxFactor(double cutoffDegrees, double innerCutoffDegrees, double exponent)
@@ -153,8 +165,16 @@ Light ToLight(
   Light light;
   light.Type = record.Type;
   light.Position = metersPerUnit * record.Position - origin;
-  light.Direction =
-    record.Type == LightType::Point ? record.Direction : Normalized(record.Direction);
+  light.Direction = record.Type == LightType::Point && !record.Web ? record.Direction
+                                                                   : Normalized(record.Direction);
+  light.Reference = SquareTo(light.Direction, record.Reference);
+  for (const Vec3& corner : record.Polygon)
+  {
+    light.Polygon.push_back(metersPerUnit * corner - origin);
+  }
+  light.TwoSided = record.TwoSided;
+  light.Web = record.Web;
+  light.Environment = record.Environment;
   light.Intensity = record.Intensity;
   light.Enabled = record.Enabled;
   light.Index = static_cast<long long>(index);

@@ -3,6 +3,7 @@
 
 #include "radiometry/scene/Light.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,16 @@ struct LightRecord
   LightType Type = LightType::Point;
   Vec3 Position;                        // m
   Vec3 Direction{ 0.0, 0.0, -1.0 };     // unit; where the light travels to
-  std::vector<double> Intensity{ 1.0 }; // per band: W/sr on the axis (directional: W/m^2)
+  Vec3 Reference{ 1.0, 0.0, 0.0 };      // C = 0 of a web, azimuth 0 of an environment
+  std::vector<double> Intensity{ 1.0 }; // per band; unit as in docs/arrays.md, by type
   double SpotCutoff = 180.0;            // degrees
   double SpotInnerCutoff = -1.0;        // degrees; < 0: hard edge
   double SpotExponent = 0.0;
   Vec3 Attenuation{ 0.0, 0.0, 1.0 };
+  std::vector<Vec3> Polygon;            // area: corners, m
+  bool TwoSided = false;                // area
+  std::shared_ptr<const CandelaWeb> Web;
+  std::shared_ptr<const SkyRadiance> Environment;
   bool Enabled = true;
   int AttachedTo = 0; // 0 scene, 1 object, 2 camera
 };

@@ -40,7 +40,10 @@ struct Scene
   std::size_t ReceiverTriangles = 0;
   std::size_t Cells = 0;
   Materials Optics;
+  /// Share that passes straight through, triangles x bands, occluders included; empty: all opaque.
+  std::vector<double> TriangleTransmittance;
   std::vector<Light> Lights;
+  std::vector<double> GlobalAmbient; // irradiance of every point, per band, W/m^2; empty: none
 
   Triangle3 TriangleAt(std::size_t t) const
   {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radiometry/formfactor/ElementSet.h"
-#include "radiometry/formfactor/EmitterIrradiance.h"
+#include "radiometry/irradiance/EmitterIrradiance.h"
 #include "radiometry/scene/Scene.h"
 
 #include <vector>

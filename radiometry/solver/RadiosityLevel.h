@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radiometry/formfactor/ElementSet.h"
-#include "radiometry/formfactor/EmitterIrradiance.h"
+#include "radiometry/irradiance/EmitterIrradiance.h"
 #include "radiometry/formfactor/FormFactorOperator.h"
 #include "radiometry/formfactor/MonteCarloOperator.h"
 #include "radiometry/irradiance/DirectIrradiance.h"

@@ -2,7 +2,7 @@
 #include "radiometry/formfactor/MonteCarloOperator.h"
 
 #include "radiometry/formfactor/DenseOperator.h"
-#include "radiometry/formfactor/EmitterIrradiance.h"
+#include "radiometry/irradiance/EmitterIrradiance.h"
 #include "radiometry/scene/InputError.h"
 #include "tests/core/TestScenes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/formfactor/PairExchange.h"
+#include "radiometry/geometry/PairExchange.h"
 
 #include "radiometry/geometry/PolygonFormFactor.h"
 #include "radiometry/geometry/Quadrature.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/formfactor/EmitterIrradiance.h"
+#include "radiometry/irradiance/EmitterIrradiance.h"
 
-#include "radiometry/formfactor/PairExchange.h"
-#include "radiometry/formfactor/PairVisibility.h"
-#include "radiometry/formfactor/PointGather.h"
+#include "radiometry/geometry/PairExchange.h"
 #include "radiometry/geometry/PolygonFormFactor.h"
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/visibility/PairVisibility.h"
+#include "radiometry/visibility/PointStarts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "radiometry/formfactor/ExchangeOptions.h"
+#include "radiometry/irradiance/ExchangeOptions.h"
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/visibility/OcclusionScene.h"

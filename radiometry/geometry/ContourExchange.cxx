@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/formfactor/ContourExchange.h"
+#include "radiometry/geometry/ContourExchange.h"
 
 #include "radiometry/geometry/Quadrature.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "radiometry/formfactor/PairExchange.h"
+#include "radiometry/geometry/PairExchange.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include <cstdint>

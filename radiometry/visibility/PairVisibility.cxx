@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/formfactor/PairVisibility.h"
+#include "radiometry/visibility/PairVisibility.h"
 
 #include "radiometry/geometry/Sampling.h"
 

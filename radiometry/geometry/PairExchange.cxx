@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/formfactor/PairExchange.h"
+#include "radiometry/geometry/PairExchange.h"
 
-#include "radiometry/formfactor/ContourExchange.h"
+#include "radiometry/geometry/ContourExchange.h"
 #include "radiometry/geometry/PolygonFormFactor.h"
 #include "radiometry/geometry/Quadrature.h"
 
