@@ -23,6 +23,9 @@ AxialDistribution MakeDistribution(const Light& light, bool spotShape)
 SourceFlux::SourceFlux(const Light& light, bool spotShape, bool attenuation)
   : Source(light)
   , Distribution(MakeDistribution(light, spotShape))
+  , Web(light.Web && light.Type == LightType::Point
+        ? std::make_shared<WebFlux>(light.Web, light.Direction, light.Reference)
+        : nullptr)
   , Legacy(attenuation && light.Type != LightType::Directional && !light.InverseSquare())
 {
 }
@@ -54,7 +57,13 @@ double SourceFlux::AtPoint(const Vec3& point, const Vec3& normal) const
   const double cosine = Dot(normal, toLight) / r;
   return cosine <= 0.0 ? 0.0
                        : cosine * this->Falloff(r) *
-      this->Distribution.Intensity(-Dot(toLight, this->Source.Direction) / r);
+      this->Intensity(-toLight, r);
+}
+
+double SourceFlux::Intensity(const Vec3& p, double r) const
+{
+  return this->Web ? this->Web->Intensity(p)
+                   : this->Distribution.Intensity(Dot(p, this->Source.Direction) / r);
 }
 
 double SourceFlux::OnPolygon(
@@ -81,6 +90,10 @@ double SourceFlux::OnPolygon(
   {
     local[k] = polygon[k] - this->Source.Position;
   }
+  if (!this->Legacy && this->Web)
+  {
+    return std::fmax(0.0, this->Web->OnPolygon(local, n, error));
+  }
   if (!this->Legacy)
   {
     return std::fmax(0.0, AxialFlux(local, n, this->Source.Direction, this->Distribution));
@@ -105,8 +118,7 @@ double SourceFlux::Weighted(const Vec3& a, const Vec3& b, const Vec3& c) const
     const Vec3 p = q.B0 * a + q.B1 * b + q.B2 * c;
     const double r = Length(p);
     const double density = q.Weight / (r * r * r);
-    weighted += density * this->Distribution.Intensity(Dot(p, this->Source.Direction) / r) * r *
-      r * this->Falloff(r);
+    weighted += density * this->Intensity(p, r) * r * r * this->Falloff(r);
     weights += density;
   }
   return std::fmax(0.0, omega) * (weighted / weights);

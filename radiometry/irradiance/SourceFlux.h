@@ -2,17 +2,20 @@
 #pragma once
 
 #include "radiometry/geometry/AxialFlux.h"
+#include "radiometry/irradiance/WebFlux.h"
 #include "radiometry/scene/Light.h"
 
 #include <cstddef>
+#include <memory>
 
 namespace radiometry
 {
 
 /// What one light sends, were nothing in the way, in units of its Intensity (every band alike).
 ///   Model   flux on a polygon: int I(w) cos(theta) f(r) dA, f = 1/(a + b r + c r^2)
-///   Methods isotropic: the solid angle; axial: boundary integral (AxialFlux); directional: the
-///           projected area; legacy attenuation: adaptive quadrature over solid angle
+///   Methods isotropic: the solid angle; axial: boundary integral (AxialFlux); candela web: boundary
+///           integral (WebFlux); directional: the projected area; legacy attenuation: adaptive
+///           quadrature over solid angle
 class SourceFlux
 {
 public:
@@ -36,9 +39,12 @@ private:
     double tolerance, double& error) const;
   double Weighted(const Vec3& a, const Vec3& b, const Vec3& c) const;
   double Falloff(double r) const;
+  /// Relative intensity toward a point p, seen from the light, at the distance r.
+  double Intensity(const Vec3& p, double r) const;
 
   Light Source;
   AxialDistribution Distribution;
+  std::shared_ptr<const WebFlux> Web; // null: the axial distribution
   bool Legacy; // attenuation other than the inverse square
 };
 
