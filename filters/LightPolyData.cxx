@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LightPolyData.h"
 
+#include "WebFieldData.h"
+
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 
@@ -13,6 +15,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+
+#include <algorithm>
+#include <map>
 
 namespace names = radiometry::names;
 
@@ -35,6 +40,54 @@ void Set(vtkDoubleArray* array, vtkIdType i, const radiometry::Vec3& v)
   array->SetTuple3(i, v.x, v.y, v.z);
 }
 
+/// The place of a web in the list, appended where it is new.
+int IndexOf(const radiometry::CandelaWeb* web, std::vector<const radiometry::CandelaWeb*>& webs)
+{
+  const auto found = std::find(webs.begin(), webs.end(), web);
+  const auto index = found - webs.begin();
+  if (found == webs.end())
+  {
+    webs.push_back(web);
+  }
+  return static_cast<int>(index);
+}
+
+/// The webs that lights refer to, each read once.
+class WebReader
+{
+public:
+  WebReader(vtkPolyData* input, const std::string& prefix)
+    : Field(input->GetFieldData())
+    , Prefix(prefix)
+  {
+  }
+  /// The web of light i; null for an index below 0.
+  std::shared_ptr<const radiometry::CandelaWeb> At(double index, vtkIdType i)
+  {
+    if (index < 0.0)
+    {
+      return nullptr;
+    }
+    const int k = index < 1e9 ? static_cast<int>(index) : -1;
+    auto& web = this->Webs[k];
+    if (!web && k == index)
+    {
+      web = ReadWeb(this->Field, k, this->Prefix);
+    }
+    if (!web)
+    {
+      throw radiometry::InputError(this->Prefix + names::PhotometricWeb, i, index,
+        "the number of a web in the field data, or -1 for none");
+    }
+    return web;
+  }
+
+private:
+  vtkFieldData* Field;
+  std::string Prefix;
+  std::map<int, std::shared_ptr<const radiometry::CandelaWeb>> Webs;
+};
+
 } // namespace
 
 void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, bool photometric,
@@ -50,6 +103,7 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
   const auto type = Add<vtkIntArray>(data, names::LightType, 1, n);
   const auto intensity = Add<vtkDoubleArray>(data, names::Intensity, bands, n);
   const auto direction = Add<vtkDoubleArray>(data, names::Direction, 3, n);
+  const auto reference = Add<vtkDoubleArray>(data, names::ReferenceDirection, 3, n);
   const auto cutoff = Add<vtkDoubleArray>(data, names::SpotCutoff, 1, n);
   const auto inner = Add<vtkDoubleArray>(data, names::SpotInnerCutoff, 1, n);
   const auto exponent = Add<vtkDoubleArray>(data, names::SpotExponent, 1, n);
@@ -59,6 +113,7 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
   const auto specular = Add<vtkDoubleArray>(data, names::SpecularColor, bands, n);
   const auto web = Add<vtkIntArray>(data, names::PhotometricWeb, 1, n);
   const auto attached = Add<vtkIntArray>(data, names::AttachedTo, 1, n);
+  std::vector<const radiometry::CandelaWeb*> webs; // each once, however many lights have it
   for (vtkIdType i = 0; i < n; ++i)
   {
     const radiometry::LightRecord& light = lights[i];
@@ -72,18 +127,23 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
       specular->SetComponent(i, b, light.Intensity[b]);
     }
     Set(direction, i, light.Direction);
+    Set(reference, i, light.Reference);
     cutoff->SetValue(i, light.SpotCutoff);
     inner->SetValue(i, light.SpotInnerCutoff);
     exponent->SetValue(i, light.SpotExponent);
     Set(attenuation, i, light.Attenuation);
     enabled->SetValue(i, light.Enabled ? 1 : 0);
-    web->SetValue(i, -1);
+    web->SetValue(i, light.Web ? IndexOf(light.Web.get(), webs) : -1);
     attached->SetValue(i, light.AttachedTo);
   }
   output->SetPoints(points);
   output->SetVerts(verts);
 
   vtkFieldData* field = output->GetFieldData();
+  for (std::size_t k = 0; k < webs.size(); ++k)
+  {
+    WriteWeb(*webs[k], static_cast<int>(k), field);
+  }
   Add<vtkStringArray>(field, "IntensityUnit", 1, 1)
     ->SetValue(0, "point, spot: W/sr; directional: W/m^2");
   Add<vtkIntArray>(field, "Photometric", 1, 1)->SetValue(0, photometric ? 1 : 0);
@@ -121,6 +181,8 @@ std::vector<radiometry::LightRecord> ReadLights(
   };
   vtkDataArray* type = find(names::LightType, 1);
   vtkDataArray* direction = find(names::Direction, 3);
+  vtkDataArray* reference = find(names::ReferenceDirection, 3);
+  vtkDataArray* web = find(names::PhotometricWeb, 1);
   vtkDataArray* cutoff = find(names::SpotCutoff, 1);
   vtkDataArray* inner = find(names::SpotInnerCutoff, 1);
   vtkDataArray* exponent = find(names::SpotExponent, 1);
@@ -145,6 +207,7 @@ std::vector<radiometry::LightRecord> ReadLights(
     return radiometry::Vec3{ array->GetComponent(i, 0), array->GetComponent(i, 1),
       array->GetComponent(i, 2) };
   };
+  WebReader webs(input, prefix);
   std::vector<radiometry::LightRecord> lights(static_cast<std::size_t>(n));
   for (vtkIdType i = 0; i < n; ++i)
   {
@@ -166,6 +229,8 @@ std::vector<radiometry::LightRecord> ReadLights(
     input->GetPoint(i, p);
     light.Position = { p[0], p[1], p[2] };
     light.Direction = direction ? vector(direction, i) : light.Direction;
+    light.Reference = reference ? vector(reference, i) : light.Reference;
+    light.Web = web ? webs.At(web->GetComponent(i, 0), i) : nullptr;
     light.Intensity.resize(static_cast<std::size_t>(bands));
     for (int b = 0; b < bands; ++b)
     {

@@ -121,9 +121,18 @@ void Validate(const LightRecord& light, long long index)
       throw InputError(names::Intensity, index, value, "a finite number, not negative");
     }
   }
-  if (light.Type != LightType::Point)
+  if (light.Type != LightType::Point || light.Web)
   {
     UnitDirection(names::Direction, light.Direction, index);
+  }
+  if (light.Web)
+  {
+    UnitDirection(names::ReferenceDirection, light.Reference, index);
+    if (light.Type != LightType::Point)
+    {
+      throw InputError(names::PhotometricWeb, index, static_cast<int>(light.Type),
+        "a web on a light of LightType 0 only");
+    }
   }
   if (light.Attenuation.x < 0.0 || light.Attenuation.y < 0.0 || light.Attenuation.z < 0.0 ||
     light.Attenuation == Vec3{})
