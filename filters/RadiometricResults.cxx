@@ -32,10 +32,11 @@ struct Photometry
   const char* Photometric;
   const char* Unit;
 };
-constexpr std::array<Photometry, 3> PhotometricNames{ Photometry{ names::Irradiance,
+constexpr std::array<Photometry, 4> PhotometricNames{ Photometry{ names::Irradiance,
                                                         names::Illuminance, "lx" },
   Photometry{ names::Radiosity, names::LuminousExitance, "lm/m^2" },
-  Photometry{ names::Radiance, names::Luminance, "cd/m^2" } };
+  Photometry{ names::Radiance, names::Luminance, "cd/m^2" },
+  Photometry{ names::Dose, names::LuminousExposure, "lx s" } };
 
 /// The photometric counterpart of a quantity, "IrradianceBack" included; null: none.
 const Photometry* Counterpart(const std::string& name, std::string& renamed)

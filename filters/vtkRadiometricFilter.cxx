@@ -5,6 +5,7 @@
 #include "RadiometricResults.h"
 #include "SceneAdapter.h"
 #include "SurfacePoints.h"
+#include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -46,6 +47,32 @@ void CheckRange(const char* name, double value, double least, double most, const
   if (!(value >= least && value <= most))
   {
     throw radiometry::InputError(name, -1, value, expected);
+  }
+}
+
+/// Radiant exposure beside every irradiance (not for a time of 0).
+void AddDose(std::vector<vtkRadiometricFilter::Result::Quantity>& quantities, double seconds)
+{
+  const std::string irradiance = radiometry::names::Irradiance;
+  const std::size_t given = seconds > 0.0 ? quantities.size() : 0;
+  for (std::size_t k = 0; k < given; ++k)
+  {
+    if (quantities[k].Name != irradiance &&
+      quantities[k].Name != irradiance + radiometry::names::BackSuffix)
+    {
+      continue;
+    }
+    auto dose = quantities[k];
+    dose.Name = radiometry::names::Dose + dose.Name.substr(irradiance.size());
+    dose.Unit = "J/m^2";
+    for (std::vector<double>* numbers : { &dose.Values, &dose.Errors })
+    {
+      for (double& number : *numbers)
+      {
+        number *= seconds;
+      }
+    }
+    quantities.push_back(std::move(dose));
   }
 }
 
@@ -150,6 +177,7 @@ int vtkRadiometricFilter::RequestData(
     CheckRange("AbsoluteTolerance", this->AbsoluteTolerance, 0.0, infinite, "at least 0");
     CheckRange("TimeBudget", this->TimeBudget, 0.0, infinite, "seconds, at least 0");
     CheckRange("MemoryLimit", this->MemoryLimit, 0.0, infinite, "MiB, at least 0");
+    CheckRange("ExposureTime", this->ExposureTime, 0.0, infinite, "seconds, at least 0");
     CheckRange("LuminousEfficacy", this->LuminousEfficacy, 1e-300, infinite, "lm/W, above 0");
 
     SceneAdapter adapter(this->MetersPerUnit, this->TwoSided, this->DiffuseReflectance);
@@ -179,6 +207,8 @@ int vtkRadiometricFilter::RequestData(
 
     Result result;
     this->Simulate(job, result);
+    AddDose(result.Cells, this->ExposureTime);
+    AddDose(result.Points, this->ExposureTime);
 
     std::ostringstream options;
     options << "RelativeTolerance=" << this->RelativeTolerance
@@ -186,6 +216,7 @@ int vtkRadiometricFilter::RequestData(
             << "; TimeBudget=" << this->TimeBudget
             << "; SampleLocation=" << (this->SampleLocation == CELLS ? "Cells" : "Points")
             << "; TwoSided=" << this->TwoSided << "; MetersPerUnit=" << this->MetersPerUnit
+            << "; ExposureTime=" << this->ExposureTime
             << "; CellsWithoutArea=" << adapter.CellsWithoutArea();
     const RadiometricResults writer(scene.Optics.Bands,
       this->Photometric ? this->LuminousEfficacy : 0.0, this->GetClassName(), options.str());
@@ -218,5 +249,6 @@ void vtkRadiometricFilter::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "SampleLocation: " << (this->SampleLocation == CELLS ? "Cells" : "Points") << '\n'
      << indent << "TwoSided: " << this->TwoSided << '\n'
      << indent << "MetersPerUnit: " << this->MetersPerUnit << '\n'
+     << indent << "ExposureTime: " << this->ExposureTime << " s\n"
      << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
 }

@@ -122,6 +122,14 @@ public:
   ///@}
 
   ///@{
+  /// Time that the surface is exposed to the light [s]. Above 0, the radiant exposure (dose)
+  /// Dose = Irradiance times this time [J/m^2] is written with its error, and in photometric mode
+  /// LuminousExposure [lx s]. Default 0: none. Finite, at least 0.
+  vtkSetMacro(ExposureTime, double);
+  vtkGetMacro(ExposureTime, double);
+  ///@}
+
+  ///@{
   /// What to simulate: 0 Auto (default; what the scene calls for), 1 On, 2 Off (left out, and the
   /// EffectPlan still bounds what that may change).
   vtkSetClampMacro(Occlusion, int, AUTO, OFF);
@@ -171,6 +179,7 @@ protected:
   double DiffuseReflectance = 0.5;
   bool Photometric = false;
   double LuminousEfficacy = 683.002;
+  double ExposureTime = 0.0;
   int Occlusion = AUTO;
   int Interreflection = AUTO;
   int SpecularTransport = AUTO;

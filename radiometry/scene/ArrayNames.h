@@ -46,11 +46,18 @@ inline constexpr char Radiance[] = "Radiance";
 inline constexpr char Illuminance[] = "Illuminance";
 inline constexpr char LuminousExitance[] = "LuminousExitance";
 inline constexpr char Luminance[] = "Luminance";
+inline constexpr char Dose[] = "Dose";                         // radiant exposure
+inline constexpr char LuminousExposure[] = "LuminousExposure"; // its photometric counterpart
 inline constexpr char BackSuffix[] = "Back";   // IrradianceBack, ...
 inline constexpr char ErrorSuffix[] = "Error"; // IrradianceError, ...
 
 // Sensors
 inline constexpr char Normals[] = "Normals";
+// Four corners of the piece of surface that a sensor stands for (12 components)
+inline constexpr char SensorCell[] = "SensorCell";
+// Field data: sensors along the sides of a regular grid (2 integers), and who decided that
+inline constexpr char SensorGridDimensions[] = "SensorGridDimensions";
+inline constexpr char SensorGridRule[] = "SensorGridRule";
 
 } // namespace names
 } // namespace radiometry
