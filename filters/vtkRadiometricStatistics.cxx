@@ -1,323 +1,129 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiometricStatistics.h"
 
-#include "SurfaceBlocks.h"
-#include "radiometry/accuracy/AreaStatistics.h"
+#include "IsoLinePolyData.h"
+#include "StatisticsBlocks.h"
+#include "StatisticsTable.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
-#include "radiometry/scene/Units.h"
-#include "radiometry/scene/Vec3.h"
 
+#include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkGenericCell.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
-#include "vtkIntArray.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <set>
-#include <tuple>
 
 vtkStandardNewMacro(vtkRadiometricStatistics);
+
+using radiometry::InputError;
 
 namespace
 {
 
-using radiometry::AreaStatistics;
-using radiometry::AreaStatisticsCollector;
-using radiometry::InputError;
-using radiometry::Vec3;
-
-constexpr long long everyGroup = -1;
-constexpr int weightedComponent = -1;
-
-/// One triangle of a cell.
-struct Piece
+bool AnyHas(const std::vector<StatisticsBlock>& blocks, const std::string& array)
 {
-  vtkIdType Cell;
-  std::array<vtkIdType, 3> Points;
-  double Area;
-};
-
-/// The triangles of the cells that have area.
-std::vector<Piece> Pieces(vtkPolyData* surface, double metersPerUnit)
-{
-  std::vector<Piece> pieces;
-  vtkNew<vtkGenericCell> cell;
-  vtkNew<vtkIdList> ids;
-  vtkNew<vtkPoints> points;
-  for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i)
-  {
-    surface->GetCell(i, cell);
-    if (cell->GetCellDimension() != 2)
-    {
-      continue;
-    }
-    cell->Triangulate(0, ids, points);
-    for (vtkIdType t = 0; t + 2 < ids->GetNumberOfIds(); t += 3)
-    {
-      radiometry::Triangle3 corners;
-      for (int k = 0; k < 3; ++k)
-      {
-        double p[3];
-        surface->GetPoint(ids->GetId(t + k), p);
-        corners[k] = metersPerUnit * Vec3{ p[0], p[1], p[2] };
-        if (!radiometry::IsFinite(corners[k]))
-        {
-          throw InputError("Points", ids->GetId(t + k), p[0] + p[1] + p[2], "finite coordinates");
-        }
-      }
-      const double area = radiometry::Area(corners);
-      if (area > 0.0)
-      {
-        pieces.push_back({ i, { ids->GetId(t), ids->GetId(t + 1), ids->GetId(t + 2) }, area });
-      }
-    }
-  }
-  return pieces;
+  return std::any_of(blocks.begin(), blocks.end(),
+    [&](const StatisticsBlock& block) { return FindField(block.Data, array).Array != nullptr; });
 }
 
-struct Key
+bool AnyGroups(const std::vector<StatisticsBlock>& blocks, const std::string& array)
 {
-  long long Group;
-  std::string Array;
-  int Component;
-  bool operator<(const Key& o) const
-  {
-    return std::tie(this->Group, this->Array, this->Component) <
-      std::tie(o.Group, o.Array, o.Component);
-  }
-};
-
-struct Entry
-{
-  explicit Entry(double threshold)
-    : Values(threshold)
-  {
-  }
-  AreaStatisticsCollector Values;
-  std::string Name;
-  vtkIdType Cells = 0;
-  vtkIdType LastCell = -1;
-};
-
-using Entries = std::map<Key, Entry>;
-
-/// An array with what it lies on.
-struct Field
-{
-  vtkDataArray* Array = nullptr;
-  bool OnCells = true;
-
-  /// A component, or the weighted sum of three bands.
-  double Value(vtkIdType i, int component) const
-  {
-    double value = 0.0;
-    if (component != weightedComponent)
-    {
-      value = this->Array->GetComponent(i, component);
-    }
-    else
-    {
-      const double rgb[3] = { this->Array->GetComponent(i, 0), this->Array->GetComponent(i, 1),
-        this->Array->GetComponent(i, 2) };
-      value = radiometry::units::Photometric(rgb, 3, 1.0);
-    }
-    if (!std::isfinite(value))
-    {
-      throw InputError(this->Array->GetName(), i, value, "a finite number");
-    }
-    return value;
-  }
-};
-
-Field FindField(vtkPolyData* surface, const std::string& name)
-{
-  vtkDataArray* onCells = surface->GetCellData()->GetArray(name.c_str());
-  return { onCells ? onCells : surface->GetPointData()->GetArray(name.c_str()),
-    onCells != nullptr };
+  return std::any_of(blocks.begin(), blocks.end(), [&](const StatisticsBlock& block) {
+    return block.Data->GetCellData()->GetArray(array.c_str()) != nullptr;
+  });
 }
 
-/// Every result array of docs/arrays.md that one of the surfaces has.
-std::vector<std::string> ResultNames(
-  const std::vector<std::pair<std::string, vtkPolyData*>>& blocks)
+/// The array of which lines are drawn when none is named.
+std::string PreferredArray(const std::vector<std::string>& arrays)
 {
-  namespace names = radiometry::names;
-  std::vector<std::string> found;
-  for (const std::string name : { names::Irradiance, names::Radiosity, names::Radiance,
-         names::Illuminance, names::LuminousExitance, names::Luminance })
+  for (const char* name : { radiometry::names::Illuminance, radiometry::names::Irradiance })
   {
-    for (const std::string& full : { name, name + names::BackSuffix })
+    if (std::find(arrays.begin(), arrays.end(), name) != arrays.end())
     {
-      if (std::any_of(blocks.begin(), blocks.end(),
-            [&](const auto& block) { return FindField(block.second, full).Array != nullptr; }))
-      {
-        found.push_back(full);
-      }
+      return name;
     }
   }
-  return found;
+  return arrays.empty() ? std::string() : arrays.front();
 }
 
-void AddPiece(Entry& entry, const Field& field, const Piece& piece, int component)
+void CheckFinite(const char* name, const std::vector<double>& values)
 {
-  if (field.OnCells)
+  for (std::size_t k = 0; k < values.size(); ++k)
   {
-    entry.Values.AddConstant(piece.Area, field.Value(piece.Cell, component));
-  }
-  else
-  {
-    const auto& p = piece.Points;
-    entry.Values.AddLinear(piece.Area, field.Value(p[0], component),
-      field.Value(p[1], component), field.Value(p[2], component));
-  }
-  if (entry.LastCell != piece.Cell)
-  {
-    entry.LastCell = piece.Cell;
-    ++entry.Cells;
-  }
-}
-
-/// Adds a surface to the entries of its block and to those of the whole (where that is not null).
-void Collect(vtkPolyData* surface, const std::vector<Piece>& pieces, const std::string& name,
-  const char* groupArray, double threshold, Entries& block, Entries* whole)
-{
-  const Field field = FindField(surface, name);
-  if (!field.Array)
-  {
-    return;
-  }
-  vtkDataArray* groups =
-    groupArray && *groupArray ? surface->GetCellData()->GetArray(groupArray) : nullptr;
-  const int components = field.Array->GetNumberOfComponents();
-  for (int c = components == 3 ? weightedComponent : 0; c < components; ++c)
-  {
-    const auto entryOf = [&](Entries& entries, long long group) -> Entry& {
-      return entries.emplace(Key{ group, name, c }, Entry(threshold)).first->second;
-    };
-    Entry& all = entryOf(block, everyGroup);
-    Entry* total = whole ? &entryOf(*whole, everyGroup) : nullptr;
-    if (total)
+    if (!std::isfinite(values[k]))
     {
-      total->LastCell = -1;
-    }
-    for (const Piece& piece : pieces)
-    {
-      AddPiece(all, field, piece, c);
-      if (total)
-      {
-        AddPiece(*total, field, piece, c);
-      }
-      if (groups)
-      {
-        const auto group = static_cast<long long>(groups->GetComponent(piece.Cell, 0));
-        if (group < 0)
-        {
-          throw InputError(groupArray, piece.Cell, static_cast<double>(group), "0 or more");
-        }
-        Entry& entry = entryOf(block, group);
-        if (entry.Cells == 0)
-        {
-          entry.Name = ValueName(surface, groupArray, group);
-        }
-        AddPiece(entry, field, piece, c);
-      }
+      throw InputError(name, static_cast<long long>(k), values[k], "a finite number");
     }
   }
 }
 
-/// The table, column by column.
-struct Columns
+/// All grids of sensors as cells.
+void WriteSensorCells(const std::vector<StatisticsBlock>& blocks, vtkPolyData* output)
 {
-  vtkNew<vtkStringArray> Block;
-  vtkNew<vtkIntArray> Group;
-  vtkNew<vtkStringArray> GroupName;
-  vtkNew<vtkStringArray> Array;
-  vtkNew<vtkIntArray> Component;
-  std::vector<std::pair<const char*, vtkSmartPointer<vtkDoubleArray>>> Numbers;
-  vtkNew<vtkIdTypeArray> Cells;
-
-  Columns()
+  vtkNew<vtkAppendPolyData> append;
+  vtkPolyData* only = nullptr;
+  for (const StatisticsBlock& block : blocks)
   {
-    this->Block->SetName("Block");
-    this->Group->SetName("Group");
-    this->GroupName->SetName("GroupName");
-    this->Array->SetName("Array");
-    this->Component->SetName("Component");
-    this->Cells->SetName("Cells");
-    for (const char* name :
-      { "Area", "Minimum", "Mean", "Maximum", "U0", "Ud", "Flux", "ShareAbove" })
+    if (block.Sensors)
     {
-      this->Numbers.emplace_back(name, vtkSmartPointer<vtkDoubleArray>::New());
-      this->Numbers.back().second->SetName(name);
+      append->AddInputData(block.Data);
+      only = block.Data;
     }
   }
-
-  void Add(const std::string& block, const Entries& entries, const std::vector<std::string>& order)
+  if (append->GetNumberOfInputConnections(0) == 1)
   {
-    // By array as they were asked for, then by group, then by component.
-    for (const std::string& array : order)
-    {
-      for (const auto& [key, entry] : entries)
-      {
-        const AreaStatistics s = entry.Values.Result();
-        if (key.Array != array || s.Pieces == 0)
-        {
-          continue;
-        }
-        this->Block->InsertNextValue(block);
-        this->Group->InsertNextValue(static_cast<int>(key.Group));
-        this->GroupName->InsertNextValue(entry.Name);
-        this->Array->InsertNextValue(array);
-        this->Component->InsertNextValue(key.Component);
-        this->Cells->InsertNextValue(entry.Cells);
-        const double values[] = { s.Area, s.Minimum, s.Mean, s.Maximum, s.U0(), s.Ud(), s.Flux,
-          s.ShareAbove() };
-        for (std::size_t i = 0; i < this->Numbers.size(); ++i)
-        {
-          this->Numbers[i].second->InsertNextValue(values[i]);
-        }
-      }
-    }
+    output->ShallowCopy(only);
   }
-
-  void Give(vtkTable* table) const
+  else if (only)
   {
-    table->AddColumn(this->Block);
-    table->AddColumn(this->Group);
-    table->AddColumn(this->GroupName);
-    table->AddColumn(this->Array);
-    table->AddColumn(this->Component);
-    for (const auto& number : this->Numbers)
-    {
-      table->AddColumn(number.second);
-    }
-    table->AddColumn(this->Cells);
+    append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+    append->Update();
+    output->ShallowCopy(append->GetOutput());
   }
-};
+}
 
 } // namespace
 
-vtkRadiometricStatistics::vtkRadiometricStatistics() = default;
+vtkRadiometricStatistics::vtkRadiometricStatistics()
+{
+  this->SetNumberOfOutputPorts(4);
+}
 
 vtkRadiometricStatistics::~vtkRadiometricStatistics()
 {
   this->SetGroupArray(nullptr);
+  this->SetIsolineArray(nullptr);
+}
+
+void vtkRadiometricStatistics::AddThreshold(double threshold)
+{
+  this->MoreThresholds.push_back(threshold);
+  this->Modified();
+}
+
+void vtkRadiometricStatistics::ClearThresholds()
+{
+  this->MoreThresholds.clear();
+  this->Modified();
+}
+
+void vtkRadiometricStatistics::AddIsovalue(double value)
+{
+  this->Isovalues.push_back(value);
+  this->Modified();
+}
+
+void vtkRadiometricStatistics::ClearIsovalues()
+{
+  this->Isovalues.clear();
+  this->Modified();
 }
 
 void vtkRadiometricStatistics::AddArrayName(const char* name)
@@ -348,71 +154,81 @@ int vtkRadiometricStatistics::FillInputPortInformation(int, vtkInformation* info
   return 1;
 }
 
+int vtkRadiometricStatistics::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port % 2 == 0 ? "vtkTable" : "vtkPolyData");
+  return 1;
+}
+
+void vtkRadiometricStatistics::Describe(vtkDataObject* input, vtkInformationVector* out) const
+{
+  if (!(this->MetersPerUnit > 0.0) || !std::isfinite(this->MetersPerUnit))
+  {
+    throw InputError("MetersPerUnit", -1, this->MetersPerUnit, "a finite number above 0");
+  }
+  std::vector<double> thresholds{ this->Threshold };
+  thresholds.insert(thresholds.end(), this->MoreThresholds.begin(), this->MoreThresholds.end());
+  CheckFinite("Threshold", thresholds);
+  CheckFinite("Isovalues", this->Isovalues);
+
+  const std::vector<StatisticsBlock> blocks = StatisticsBlocks(input);
+  const std::vector<std::string> arrays =
+    this->ArrayNames.empty() ? ResultNames(blocks) : this->ArrayNames;
+  const std::string group = this->GroupArray ? this->GroupArray : "";
+  std::string lineArray = this->IsolineArray ? this->IsolineArray : "";
+  const bool anyCells = std::any_of(blocks.begin(), blocks.end(),
+    [](const StatisticsBlock& block) { return block.Data->GetNumberOfCells() > 0; });
+  for (const std::string& array : arrays)
+  {
+    if (anyCells && !AnyHas(blocks, array))
+    {
+      throw InputError(array, -1, "missing", "a cell or point array of the surface");
+    }
+  }
+  if (anyCells && !lineArray.empty() && !AnyHas(blocks, lineArray))
+  {
+    throw InputError(lineArray, -1, "missing", "a cell or point array of the surface");
+  }
+  if (anyCells && !group.empty() && !AnyGroups(blocks, group))
+  {
+    throw InputError(group, -1, "missing", "an integer cell array of the surface");
+  }
+
+  StatisticsTable table(thresholds, group, vtkCompositeDataSet::SafeDownCast(input) != nullptr);
+  std::vector<std::vector<SurfacePiece>> pieces;
+  for (const StatisticsBlock& block : blocks)
+  {
+    pieces.push_back(block.Pieces(this->MetersPerUnit));
+    table.Add(block, pieces.back(), arrays);
+  }
+  table.Write(arrays, vtkTable::GetData(out, 0));
+  lineArray = lineArray.empty() ? PreferredArray(arrays) : lineArray;
+  if (anyCells && !lineArray.empty())
+  {
+    IsoLines(lineArray, this->Isovalues, this->MetersPerUnit)
+      .Write(blocks, pieces, vtkPolyData::GetData(out, 1), vtkTable::GetData(out, 2));
+  }
+  WriteSensorCells(blocks, vtkPolyData::GetData(out, 3));
+}
+
 int vtkRadiometricStatistics::RequestData(
   vtkInformation*, vtkInformationVector** in, vtkInformationVector* out)
 {
-  vtkDataObject* input = vtkDataObject::GetData(in[0]);
-  vtkTable* output = vtkTable::GetData(out);
-  output->Initialize();
+  const auto clear = [&] {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkDataObject::GetData(out, port)->Initialize();
+    }
+  };
+  clear();
   try
   {
-    if (!(this->MetersPerUnit > 0.0) || !std::isfinite(this->MetersPerUnit))
-    {
-      throw InputError("MetersPerUnit", -1, this->MetersPerUnit, "a finite number above 0");
-    }
-    const auto blocks = SurfaceBlocks(input);
-    const std::vector<std::string> names =
-      this->ArrayNames.empty() ? ResultNames(blocks) : this->ArrayNames;
-    const bool composite = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
-    bool anyCells = false;
-    std::set<std::string> found;
-    bool groupFound = false;
-    Entries whole;
-    std::vector<std::pair<std::string, Entries>> parts;
-    for (const auto& [name, surface] : blocks)
-    {
-      anyCells = anyCells || surface->GetNumberOfCells() > 0;
-      groupFound = groupFound ||
-        (this->GroupArray && surface->GetCellData()->GetArray(this->GroupArray) != nullptr);
-      const std::vector<Piece> pieces = Pieces(surface, this->MetersPerUnit);
-      parts.emplace_back(name, Entries());
-      for (const std::string& array : names)
-      {
-        if (FindField(surface, array).Array)
-        {
-          found.insert(array);
-        }
-        Collect(surface, pieces, array, this->GroupArray, this->Threshold, parts.back().second,
-          composite ? &whole : nullptr);
-      }
-    }
-    for (const std::string& array : names)
-    {
-      if (anyCells && found.count(array) == 0)
-      {
-        throw InputError(array, -1, "missing", "a cell or point array of the surface");
-      }
-    }
-    if (anyCells && this->GroupArray && *this->GroupArray && !groupFound)
-    {
-      throw InputError(this->GroupArray, -1, "missing", "an integer cell array of the surface");
-    }
-    Columns columns;
-    columns.Add("(all)", whole, names);
-    for (const auto& [name, entries] : parts)
-    {
-      columns.Add(name, entries, names);
-    }
-    columns.Give(output);
-    vtkNew<vtkDoubleArray> threshold;
-    threshold->SetName("Threshold");
-    threshold->InsertNextValue(this->Threshold);
-    output->GetFieldData()->AddArray(threshold);
+    this->Describe(vtkDataObject::GetData(in[0]), out);
   }
   catch (const InputError& error)
   {
+    clear();
     vtkErrorMacro(<< error.what());
-    output->Initialize();
     return 0;
   }
   return 1;
@@ -429,5 +245,14 @@ void vtkRadiometricStatistics::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n";
   os << indent << "GroupArray: " << (this->GroupArray ? this->GroupArray : "(none)") << "\n";
   os << indent << "Threshold: " << this->Threshold << "\n";
+  for (const double threshold : this->MoreThresholds)
+  {
+    os << indent << "Further threshold: " << threshold << "\n";
+  }
+  os << indent << "IsolineArray: " << (this->IsolineArray ? this->IsolineArray : "(none)") << "\n";
+  for (const double value : this->Isovalues)
+  {
+    os << indent << "Isovalue: " << value << "\n";
+  }
   os << indent << "MetersPerUnit: " << this->MetersPerUnit << "\n";
 }

@@ -8,20 +8,31 @@
 #include <string> // for ArrayNames
 #include <vector> // for ArrayNames
 
-/// Area-weighted statistics of arrays over a surface, its blocks and its groups of cells.
+/// Area-weighted statistics of arrays over a surface, its blocks and its groups of cells, and lines
+/// of equal value (iso-lux lines).
 ///   Reads   polydata, or composite data of polydata; the named cell or point arrays (any unit);
-///           GroupArray: one integer a cell
-///   Writes  vtkTable, one row for each block, group, array and component: Block, Group (value of
-///           GroupArray; -1: all cells of the block), GroupName, Array, Component (-1: the sum of
-///           three bands weighted by luminance), Area [m^2], Minimum, Mean, Maximum, U0, Ud,
-///           Flux [array's unit times m^2], ShareAbove, Cells. Of composite data a first block
-///           "(all)" is the whole. Field data: Threshold
+///           GroupArray: one integer a cell. Grids of sensors count by the pieces of surface that
+///           they stand for (SensorCell), or, where that is missing, one area unit each
+///   Writes  output 0: vtkTable, one row for each block, group, array and component: Block, Group
+///           (value of GroupArray; -1: all cells of the block), GroupName, Array, Component (-1: the
+///           sum of three bands weighted by luminance), Area [m^2], Minimum, Mean, Maximum, U0, Ud,
+///           Flux [array's unit times m^2], ShareAbove (and "ShareAbove x" for each further
+///           threshold x), Cells. Of composite data a first block "(all)" is the whole. Field data:
+///           Threshold
+///           output 1: polydata, lines of equal value of one array: cell data Isovalue, Label (value
+///           and unit), Length [m]; point data named like the array
+///           output 2: vtkTable, one row a level: Isovalue, Label, Length [m], AreaAbove [m^2],
+///           ShareAbove
+///           output 3: polydata, grids of sensors as cells with the sensors' values as cell data, to
+///           colour; empty where the input has none
 ///   Model   Mean = flux / area; U0 = minimum / mean; Ud = minimum / maximum (0 where that divides
-///           by 0); point values are linear over triangles. Cells without area count for nothing
-///   Cost    O(cells x arrays)
+///           by 0); point values are linear over triangles. Cells without area count for nothing.
+///           Lines: between points, values are linear, and so they are between the sensors of a
+///           rectangle; cell values are first averaged to corners (30 degrees part sheets)
+///   Cost    O(cells x (arrays x thresholds + levels))
 ///   Source  EN 12665:2018, 3.2
 ///   Fails   an array that is missing or holds a value that is not finite: an error that names it,
-///           an empty table
+///           empty outputs
 class VTKRADIOMETRYFILTERS_EXPORT vtkRadiometricStatistics : public vtkTableAlgorithm
 {
 public:
@@ -55,6 +66,28 @@ public:
   ///@}
 
   ///@{
+  /// Further thresholds, each with a column of its own. Default none. Finite.
+  void AddThreshold(double threshold);
+  void ClearThresholds();
+  int GetNumberOfThresholds() const { return 1 + static_cast<int>(this->MoreThresholds.size()); }
+  ///@}
+
+  ///@{
+  /// The array of the iso-lines. Default none: Illuminance where it is among the arrays, else
+  /// Irradiance, else the first of them. Of several bands, all together (three: their luminance).
+  vtkSetStringMacro(IsolineArray);
+  vtkGetStringMacro(IsolineArray);
+  ///@}
+
+  ///@{
+  /// The values of the iso-lines, in the array's unit. Default none: steps of 1, 2 and 5 between
+  /// the array's extremes. Finite.
+  void AddIsovalue(double value);
+  void ClearIsovalues();
+  int GetNumberOfIsovalues() const { return static_cast<int>(this->Isovalues.size()); }
+  ///@}
+
+  ///@{
   /// Length of one unit of the coordinates [m]. Default 1. Finite, > 0.
   vtkSetMacro(MetersPerUnit, double);
   vtkGetMacro(MetersPerUnit, double);
@@ -65,17 +98,23 @@ protected:
   ~vtkRadiometricStatistics() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** in, vtkInformationVector* out) override;
 
   std::vector<std::string> ArrayNames;
   char* GroupArray = nullptr;
   double Threshold = 0.0;
+  std::vector<double> MoreThresholds;
+  char* IsolineArray = nullptr;
+  std::vector<double> Isovalues;
   double MetersPerUnit = 1.0;
 
 private:
   vtkRadiometricStatistics(const vtkRadiometricStatistics&) = delete;
   void operator=(const vtkRadiometricStatistics&) = delete;
+
+  void Describe(vtkDataObject* input, vtkInformationVector* out) const;
 };
 
 #endif

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Radiometric Statistics against closed forms."""
 import numpy as np
-from checks import close, fails, run_all
+from checks import array, close, fails, points, run_all
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkCompositeDataSet, vtkMultiBlockDataSet,
                                            vtkPolyData)
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
-from vtkradiometry import vtkRadiometricStatistics
+from vtkradiometry import vtkRadiometricStatistics, vtkWorkPlaneSource
 
 
 def surface(points, cells, cell_data=None, point_data=None):
@@ -145,6 +146,189 @@ def test_dark_and_empty():
     assert table(surface(POINTS, [[0, 1, 1]], {"E": [1.0]}), "E") == {}
 
 
+def plane(resolution, values=None, name="E"):
+    """A square of side 10 in double precision with values(x, y) at its points or on its cells."""
+    source = vtkPlaneSource()
+    source.SetOrigin(0, 0, 0)
+    source.SetPoint1(10, 0, 0)
+    source.SetPoint2(0, 10, 0)
+    source.SetResolution(resolution, resolution)
+    source.SetOutputPointsPrecision(1)
+    source.Update()
+    data = source.GetOutput()
+    xyz = points(data)
+    array_ = numpy_to_vtk(values(xyz[:, 0], xyz[:, 1]), deep=True)
+    array_.SetName(name)
+    data.GetPointData().AddArray(array_)
+    return data
+
+
+def lines_of(data, *levels, **properties):
+    """(lines, table of levels)"""
+    statistics = vtkRadiometricStatistics()
+    statistics.SetInputDataObject(data)
+    for level in levels:
+        statistics.AddIsovalue(level)
+    for name, value in {"ArrayName": "E", **properties}.items():
+        getattr(statistics, "Set" + name)(value)
+    statistics.Update()
+    return statistics.GetOutputDataObject(1), statistics.GetOutputDataObject(2)
+
+
+def test_lines_of_a_linear_field():
+    """On E = 3x + 4y the line E = 20 runs from (20/3, 0) to (0, 5): 25/3 long, straight, whatever
+    the mesh; the area above is the square less the triangle below."""
+    for resolution in (1, 4, 9):
+        data = plane(resolution, lambda x, y: 3 * x + 4 * y)
+        lines, levels = lines_of(data, 20.0)
+        xyz = points(lines)
+        close(3 * xyz[:, 0] + 4 * xyz[:, 1], [20.0] * len(xyz))
+        assert lines.GetNumberOfCells() == 1, "one line, not pieces"
+        close(array(lines.GetCellData(), "Length"), [25 / 3])
+        close(array(lines.GetCellData(), "Isovalue"), [20])
+        close(array(lines.GetPointData(), "E"), [20] * len(xyz))
+        assert array(lines.GetCellData(), "Label") == ["20"]
+        close(array(levels.GetRowData(), "AreaAbove"), [100 - 50 / 3])
+        close(array(levels.GetRowData(), "ShareAbove"), [1 - 1 / 6])
+        close(array(levels.GetRowData(), "Length"), [25 / 3])
+
+
+def test_lines_of_triangles_and_metres():
+    data = plane(5, lambda x, y: x)
+    triangles = vtkTriangleFilter()
+    triangles.SetInputData(data)
+    triangles.Update()
+    lines, levels = lines_of(triangles.GetOutput(), 3.3, MetersPerUnit=0.001)
+    close(points(lines)[:, 0], [3.3] * lines.GetNumberOfPoints())
+    close(array(levels.GetRowData(), "Length"), [0.010])
+
+
+def test_lines_are_round_and_closed():
+    """E = 100 - r^2: the level 84 is a circle of radius 4, one closed line."""
+    data = plane(80, lambda x, y: 100 - (x - 5)**2 - (y - 5)**2)
+    lines, _ = lines_of(data, 84.0)
+    assert lines.GetNumberOfCells() == 1
+    cell = lines.GetCell(0)
+    assert cell.GetPointId(0) != cell.GetPointId(1)
+    xyz = points(lines)
+    close(xyz[0], xyz[-1])
+    close(np.hypot(xyz[:, 0] - 5, xyz[:, 1] - 5), [4] * len(xyz), relative=5e-4)
+    close(array(lines.GetCellData(), "Length"), [8 * np.pi], relative=1e-3)
+
+
+def test_lines_of_cell_values():
+    """Cell averages of E = x: away from the border the averaged corners are exact."""
+    data = plane(20, lambda x, y: x)
+    centres = 0.25 + 0.5 * (np.arange(400) % 20)
+    array_ = numpy_to_vtk(centres, deep=True)
+    array_.SetName("C")
+    data.GetCellData().AddArray(array_)
+    lines, _ = lines_of(data, 3.1, ArrayName="C")
+    close(points(lines)[:, 0], [3.1] * lines.GetNumberOfPoints())
+    close(array(lines.GetCellData(), "Length"), [10])
+
+
+def test_cell_values_do_not_mix_over_an_edge():
+    """A floor of 0 and a wall of 10 that share an edge: no line of 5 anywhere."""
+    data = surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 1], [1, 1, 1]],
+                   [[0, 1, 2, 3], [1, 4, 5, 2]], {"E": [0.0, 10.0]})
+    assert lines_of(data, 5.0)[0].GetNumberOfCells() == 0
+    flat = surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]],
+                   [[0, 1, 2, 3], [1, 4, 5, 2]], {"E": [0.0, 10.0]})
+    lines, _ = lines_of(flat, 5.0 + 1e-9)
+    close(array(lines.GetCellData(), "Length"), [1.0], relative=1e-6)
+
+
+def test_automatic_levels():
+    """Steps of 1, 2 and 5: evenly spaced for a narrow range, in decades for a wide one."""
+    _, levels = lines_of(plane(4, lambda x, y: 200 + 30 * x))
+    close(array(levels.GetRowData(), "Isovalue"), [250, 300, 350, 400, 450])
+    _, levels = lines_of(plane(4, lambda x, y: 1 + 70 * x))
+    close(array(levels.GetRowData(), "Isovalue"), [2, 5, 10, 20, 50, 100, 200, 500])
+    _, levels = lines_of(plane(4, lambda x, y: 0 * x + 7))
+    assert levels.GetNumberOfRows() == 0
+
+
+def test_lines_prefer_illuminance():
+    data = plane(2, lambda x, y: x, "Irradiance")
+    other = numpy_to_vtk(100 * points(data)[:, 0], deep=True)
+    other.SetName("Illuminance")
+    data.GetPointData().AddArray(other)
+    statistics = vtkRadiometricStatistics()
+    statistics.SetInputDataObject(data)
+    statistics.AddIsovalue(300.0)
+    statistics.Update()
+    lines = statistics.GetOutputDataObject(1)
+    close(points(lines)[:, 0], [3] * lines.GetNumberOfPoints())
+    close(array(lines.GetCellData(), "Length"), [10])
+    statistics.SetIsolineArray("Irradiance")
+    statistics.Update()
+    assert statistics.GetOutputDataObject(1).GetNumberOfPoints() == 0
+
+
+def sensors(xyz, values):
+    data = vtkPolyData()
+    positions = vtkPoints()
+    positions.SetData(numpy_to_vtk(np.array(xyz, float), deep=True))
+    data.SetPoints(positions)
+    verts = vtkCellArray()
+    for i in range(len(xyz)):
+        verts.InsertNextCell(1, [i])
+    data.SetVerts(verts)
+    for name, tuples in (("Normals", [[0.0, 0.0, 1.0]] * len(xyz)), ("E", values)):
+        array_ = numpy_to_vtk(np.array(tuples, float), deep=True)
+        array_.SetName(name)
+        data.GetPointData().AddArray(array_)
+    return data
+
+
+def test_sensors_without_cells_weigh_alike():
+    row = table(sensors([[0, 0, 0], [1, 0, 0], [5, 0, 0]], [1, 2, 6]), "E", Threshold=2)[
+        "", -1, "E", 0]
+    for name, value in (("Mean", 3), ("Minimum", 1), ("Maximum", 6), ("U0", 1 / 3), ("Ud", 1 / 6),
+                        ("ShareAbove", 2 / 3), ("Cells", 3), ("Area", 3)):
+        close(row[name], value)
+
+
+def test_further_thresholds():
+    statistics = vtkRadiometricStatistics()
+    statistics.SetInputDataObject(plane(3, lambda x, y: x))
+    statistics.SetArrayName("E")
+    statistics.SetThreshold(2.0)
+    statistics.AddThreshold(5.0)
+    statistics.AddThreshold(7.5)
+    statistics.Update()
+    out = statistics.GetOutput()
+    for name, value in (("ShareAbove", 0.8), ("ShareAbove 5", 0.5), ("ShareAbove 7.5", 0.25)):
+        close(out.GetValueByName(0, name).ToDouble(), value)
+    close(np.ravel(array(out.GetFieldData(), "Threshold")), [2, 5, 7.5])
+    statistics.ClearThresholds()
+    statistics.Update()
+    assert statistics.GetOutput().GetColumnByName("ShareAbove 5") is None
+
+
+def test_blocks_with_a_grid_of_sensors():
+    """A work plane beside a surface: each with its own area, both in the whole."""
+    source = vtkWorkPlaneSource()
+    source.SetPoint1(1.5, -0.5, 0)
+    source.Update()
+    grid = source.GetOutput()
+    grid.GetPointData().AddArray(_named("E", np.full(grid.GetNumberOfPoints(), 4.0)))
+    blocks = vtkMultiBlockDataSet()
+    blocks.SetBlock(0, grid)
+    blocks.SetBlock(1, surface(POINTS, CELLS, {"E": [1.0, 1.0, 0.0]}))
+    rows = table(blocks, "E")
+    close(rows["block 0", -1, "E", 0]["Area"], 2)
+    close(rows["(all)", -1, "E", 0]["Area"], 5)
+    close(rows["(all)", -1, "E", 0]["Mean"], (2 * 4 + 3 * 1) / 5)
+
+
+def _named(name, values):
+    result = numpy_to_vtk(values, deep=True)
+    result.SetName(name)
+    return result
+
+
 def test_errors():
     def statistics(data, name="E", **properties):
         filter_ = vtkRadiometricStatistics()
@@ -157,6 +341,11 @@ def test_errors():
     good = surface(POINTS, CELLS, {"E": [1.0, 2.0, 3.0]})
     fails(statistics(good, "Missing"), "Missing")
     fails(statistics(good, GroupArray="ObjectIndex"), "ObjectIndex", "missing")
+    fails(statistics(good, IsolineArray="Nowhere"), "Nowhere", "missing")
+    fails(statistics(good, Threshold=float("nan")), "Threshold", "nan")
+    lines = statistics(good)
+    lines.AddIsovalue(float("inf"))
+    fails(lines, "Isovalues[0]", "inf")
     fails(statistics(good, MetersPerUnit=0.0), "MetersPerUnit", "0")
     fails(statistics(surface(POINTS, CELLS, {"E": [1.0, float("nan"), 3.0]})), "E[1]", "nan")
     bad = [list(p) for p in POINTS]
