@@ -40,6 +40,13 @@ bool AnyGroups(const std::vector<StatisticsBlock>& blocks, const std::string& ar
   });
 }
 
+/// A chosen array; empty: none. ParaView's menus say None for that.
+std::string Chosen(const char* name)
+{
+  const std::string chosen = name ? name : "";
+  return chosen == "None" ? "" : chosen;
+}
+
 /// The array of which lines are drawn when none is named.
 std::string PreferredArray(const std::vector<std::string>& arrays)
 {
@@ -174,8 +181,8 @@ void vtkRadiometricStatistics::Describe(vtkDataObject* input, vtkInformationVect
   const std::vector<StatisticsBlock> blocks = StatisticsBlocks(input);
   const std::vector<std::string> arrays =
     this->ArrayNames.empty() ? ResultNames(blocks) : this->ArrayNames;
-  const std::string group = this->GroupArray ? this->GroupArray : "";
-  std::string lineArray = this->IsolineArray ? this->IsolineArray : "";
+  const std::string group = Chosen(this->GroupArray);
+  std::string lineArray = Chosen(this->IsolineArray);
   const bool anyCells = std::any_of(blocks.begin(), blocks.end(),
     [](const StatisticsBlock& block) { return block.Data->GetNumberOfCells() > 0; });
   for (const std::string& array : arrays)

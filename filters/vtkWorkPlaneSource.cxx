@@ -223,8 +223,7 @@ void vtkWorkPlaneSource::MakePlane(vtkDataObject* input, Grid& grid) const
        << side2 << " m";
   if (room)
   {
-    rule << ", " << this->Height << " m above the floor, " << this->WallZone
-         << " m from the walls";
+    rule << ", " << this->Height << " m above the floor, wall zone " << this->WallZone << " m";
   }
   grid.Rule = rule.str();
   radiometry::AddSensors(plane, grid.Counts, grid.Sensors);

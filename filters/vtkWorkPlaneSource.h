@@ -19,8 +19,8 @@
 ///           half a spacing from the edge
 ///   Cost    O(sensors), 200 bytes each; at most 10 million
 ///   Source  EN 12464-1:2011, 4.4
-///   Fails   a plane without area, a number that is not finite, a wall zone that leaves nothing, too
-///           many sensors, a mode without its input: an error that names it, empty outputs
+///   Fails   a plane without area, a number that is not finite, too many sensors, a mode without its
+///           input: an error that names it, empty outputs
 class VTKRADIOMETRYFILTERS_EXPORT vtkWorkPlaneSource : public vtkPolyDataAlgorithm
 {
 public:
@@ -82,8 +82,8 @@ public:
   vtkGetMacro(Height, double);
   ///@}
   ///@{
-  /// Room: width of the zone along the walls that is left out [m]. Default 0.5 (EN 12464-1).
-  /// At least 0.
+  /// Room: width of the zone along the walls that is left out [m], but at most a quarter of the
+  /// room's side. Default 0.5 (EN 12464-1). At least 0.
   vtkSetMacro(WallZone, double);
   vtkGetMacro(WallZone, double);
   ///@}

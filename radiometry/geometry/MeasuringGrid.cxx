@@ -210,19 +210,16 @@ void RoomExtent::Add(const Vec3& point)
 
 GridParallelogram RoomExtent::Plane(double height, double margin) const
 {
+  std::array<double, 2> margins{};
   std::array<double, 2> sides{};
   for (int k = 0; k < 2; ++k)
   {
-    sides[k] = this->High[k] - this->Low[k] - 2.0 * margin;
-    if (!(sides[k] > 0.0))
-    {
-      throw InputError("WallZone", -1, margin,
-        "less than half of each side of the room, " + std::to_string(this->High[0] - this->Low[0]) +
-          " by " + std::to_string(this->High[1] - this->Low[1]) + " in the same unit");
-    }
+    const double side = this->High[k] - this->Low[k];
+    margins[k] = std::min(margin, 0.25 * side);
+    sides[k] = side - 2.0 * margins[k];
   }
-  const Vec3 corner = (this->Low[0] + margin) * this->Axes[0] +
-    (this->Low[1] + margin) * this->Axes[1] + (this->Low[2] + height) * this->Axes[2];
+  const Vec3 corner = (this->Low[0] + margins[0]) * this->Axes[0] +
+    (this->Low[1] + margins[1]) * this->Axes[1] + (this->Low[2] + height) * this->Axes[2];
   return { corner, sides[0] * this->Axes[0], sides[1] * this->Axes[1] };
 }
 

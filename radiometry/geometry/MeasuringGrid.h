@@ -71,9 +71,9 @@ public:
   explicit RoomExtent(const Vec3& up);
   void Add(const Vec3& point);
   bool Empty() const { return this->Count == 0; }
-  /// The plane at `height` above the lowest point, `margin` away from the outermost points; its
-  /// front is up. Along a coordinate axis as up, its sides follow the other two axes.
-  /// Fails: InputError, a margin that leaves nothing.
+  /// The plane at `height` above the lowest point, `margin` away from the outermost points, but at
+  /// most a quarter of the side, so that something is left of a narrow room; its front is up. Along
+  /// a coordinate axis as up, its sides follow the other two axes.
   GridParallelogram Plane(double height, double margin) const;
 
 private:

@@ -329,6 +329,11 @@ def _named(name, values):
     return result
 
 
+def test_none_as_in_paraview():
+    data = surface(POINTS, CELLS, {"E": [10.0, 1.0, 99.0]})
+    assert len(table(data, "E", GroupArray="None", IsolineArray="None")) == 1
+
+
 def test_errors():
     def statistics(data, name="E", **properties):
         filter_ = vtkRadiometricStatistics()
