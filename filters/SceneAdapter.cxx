@@ -5,7 +5,6 @@
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/SceneBuilder.h"
-#include "radiometry/scene/Units.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -14,6 +13,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -173,36 +173,60 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
   return out;
 }
 
-/// A material array of a block: cell data, or field data of one tuple.
-vtkDataArray* FindArray(const SceneAdapter::Block& block, const std::string& name)
+/// The field array ObjectTransform of an object, if it has one.
+bool ReadTransform(vtkDataObject* data, const std::string& name, radiometry::Affine& matrix)
 {
-  if (vtkDataArray* array = block.Data->GetCellData()->GetArray(name.c_str()))
+  auto* array = vtkDataArray::SafeDownCast(
+    data->GetFieldData()->GetAbstractArray(names::ObjectTransform));
+  if (!array)
   {
-    if (array->GetNumberOfTuples() != block.Cells)
-    {
-      throw InputError(block.Name + name, -1, std::to_string(array->GetNumberOfTuples()) + " tuples",
-        std::to_string(block.Cells) + ", one a cell");
-    }
-    return array;
+    return false;
   }
-  vtkDataArray* array =
-    vtkDataArray::SafeDownCast(block.Data->GetFieldData()->GetAbstractArray(name.c_str()));
-  if (array && array->GetNumberOfTuples() != 1)
+  if (array->GetNumberOfValues() != 16)
   {
-    throw InputError(block.Name + name + " (field data)", -1,
-      std::to_string(array->GetNumberOfTuples()) + " tuples", "one tuple, for the whole block");
+    throw InputError(name, -1, std::to_string(array->GetNumberOfValues()) + " numbers",
+      "16: a 4 x 4 matrix, row by row");
   }
-  return array;
+  const int components = array->GetNumberOfComponents();
+  for (int k = 0; k < 16; ++k)
+  {
+    matrix[k] = array->GetComponent(k / components, k % components);
+  }
+  radiometry::ValidateAffine(name.c_str(), matrix);
+  return true;
 }
-
-const char* const SpectralNames[] = { names::DiffuseReflectance, names::SpecularReflectance,
-  names::EmittedExitance, names::Transmittance };
 
 } // namespace
 
+void SceneAdapter::SetFrames(const radiometry::Affine& object, const radiometry::ViewFrame& view)
+{
+  radiometry::ValidateAffine(names::ObjectTransform, object);
+  this->ObjectTransform = object;
+  this->View = view;
+}
+
 void SceneAdapter::AddSurface(vtkDataObject* data)
 {
+  const std::size_t first = this->Surface.size();
   Collect(data, "", this->Surface);
+  const auto read = [&](vtkDataObject* carrier, const std::string& name) {
+    radiometry::Affine matrix;
+    if (ReadTransform(carrier, name + names::ObjectTransform, matrix))
+    {
+      if (this->OwnTransform && matrix != this->ObjectTransform)
+      {
+        throw InputError(name + names::ObjectTransform, -1, "differs from another block's",
+          "one transform for the whole surface");
+      }
+      this->OwnTransform = true;
+      this->ObjectTransform = matrix;
+    }
+  };
+  read(data, "");
+  for (std::size_t k = first; k < this->Surface.size(); ++k)
+  {
+    read(this->Surface[k].Data, this->Surface[k].Name);
+  }
 }
 
 void SceneAdapter::AddOccluder(vtkDataObject* data)
@@ -212,45 +236,24 @@ void SceneAdapter::AddOccluder(vtkDataObject* data)
 
 void SceneAdapter::AddLights(vtkDataObject* data)
 {
+  const std::size_t first = this->Lights.size();
   Collect(data, "lights, ", this->Lights);
-}
-
-int SceneAdapter::FindBands() const
-{
-  int bands = 1;
-  std::string where = "one band";
-  const auto see = [&](vtkDataArray* array, const std::string& name) {
-    if (!array || array->GetNumberOfComponents() == 1)
+  const auto see = [&](vtkDataObject* carrier, const std::string& name) {
+    auto* array = vtkDataArray::SafeDownCast(
+      carrier->GetFieldData()->GetAbstractArray(names::GlobalAmbient));
+    if (array)
     {
-      return;
+      this->AmbientArrays.emplace_back(name + names::GlobalAmbient, array);
     }
-    const int n = array->GetNumberOfComponents();
-    if (bands != 1 && n != bands)
-    {
-      throw InputError(name, -1, std::to_string(n) + " bands",
-        "1 or " + std::to_string(bands) + " bands, as " + where);
-    }
-    if (n > 1024)
-    {
-      throw InputError(name, -1, std::to_string(n) + " bands", "at most 1024 bands");
-    }
-    bands = n;
-    where = name;
   };
-  for (const Block& block : this->Surface)
+  if (vtkCompositeDataSet::SafeDownCast(data))
   {
-    for (const char* name : SpectralNames)
-    {
-      see(FindArray(block, name), block.Name + name);
-      see(FindArray(block, std::string(names::BackPrefix) + name),
-        block.Name + names::BackPrefix + name);
-    }
+    see(data, "lights, ");
   }
-  for (const Block& block : this->Lights)
+  for (std::size_t k = first; k < this->Lights.size(); ++k)
   {
-    see(block.Data->GetPointData()->GetArray(names::Intensity), block.Name + names::Intensity);
+    see(this->Lights[k].Data, this->Lights[k].Name);
   }
-  return bands;
 }
 
 radiometry::Scene SceneAdapter::Build()
@@ -270,13 +273,17 @@ radiometry::Scene SceneAdapter::Build()
         this->MetersPerUnit, block.Name + "Points");
     }
   }
-  for (const Block& block : this->Occluders)
+  std::size_t occluderCells = 0;
+  for (Block& block : this->Occluders)
   {
+    block.FirstCell = occluderCells;
+    occluderCells += static_cast<std::size_t>(block.Cells);
     const Triangulation t = Triangulate(block);
     builder.AddMesh(SceneBuilder::Role::Occluder, t.Points, t.Triangles, t.Cell,
       this->MetersPerUnit, block.Name + "Points");
   }
-  radiometry::Scene scene = builder.Finish(cells);
+  std::vector<std::int32_t> cellOfOccluder;
+  radiometry::Scene scene = builder.Finish(cells, &cellOfOccluder);
   covered.assign(cells, 0);
   for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
   {
@@ -286,120 +293,16 @@ radiometry::Scene SceneAdapter::Build()
 
   scene.Optics.Bands = bands;
   this->ReadMaterials(scene);
+  this->ReadTransmittance(cellOfOccluder, scene);
+  this->ReadAmbient(scene);
   for (const Block& block : this->Lights)
   {
     for (const radiometry::LightRecord& record : ReadLights(block.Data, bands, block.Name))
     {
       scene.Lights.push_back(
-        radiometry::ToLight(record, this->MetersPerUnit, scene.Origin, scene.Lights.size()));
+        radiometry::ToLight(radiometry::PlaceLight(record, this->ObjectTransform, this->View),
+          this->MetersPerUnit, scene.Origin, scene.Lights.size()));
     }
   }
   return scene;
-}
-
-void SceneAdapter::ReadMaterials(radiometry::Scene& scene) const
-{
-  radiometry::Materials& optics = scene.Optics;
-  const int bands = optics.Bands;
-  const std::size_t size = scene.Cells * static_cast<std::size_t>(bands);
-  if (!(this->DiffuseReflectance >= 0.0 && this->DiffuseReflectance <= 1.0))
-  {
-    throw InputError("DiffuseReflectance", -1, this->DiffuseReflectance, "a number in [0, 1]");
-  }
-
-  // Reads one array of every block; `values` stays empty when no block has it.
-  const auto read = [&](const std::string& name, double least, double most, double fallback,
-                      std::vector<double>& values) {
-    for (const Block& block : this->Surface)
-    {
-      vtkDataArray* array = FindArray(block, name);
-      if (!array)
-      {
-        continue;
-      }
-      if (values.empty())
-      {
-        values.assign(size, fallback);
-      }
-      const bool whole = array->GetNumberOfTuples() == 1 && block.Cells != 1;
-      const int components = array->GetNumberOfComponents();
-      for (vtkIdType c = 0; c < block.Cells; ++c)
-      {
-        for (int b = 0; b < bands; ++b)
-        {
-          const double value = array->GetComponent(whole ? 0 : c, components == 1 ? 0 : b);
-          if (!(value >= least && value <= most))
-          {
-            throw InputError(block.Name + name, whole ? 0 : c, value,
-              std::isinf(most) ? "a finite number of at least 0"
-                               : "a number in [0, 1]");
-          }
-          if (std::isinf(value))
-          {
-            throw InputError(block.Name + name, whole ? 0 : c, value, "a finite number");
-          }
-          values[(block.FirstCell + c) * bands + b] = value;
-        }
-      }
-    }
-  };
-  const double infinite = std::numeric_limits<double>::infinity();
-  const auto readSides = [&](const char* name, double most, double fallback,
-                           std::array<std::vector<double>, 2>& sides) {
-    read(name, 0.0, most, fallback, sides[0]);
-    sides[1] = sides[0];
-    read(std::string(names::BackPrefix) + name, 0.0, most, fallback, sides[1]);
-    if (sides[0].empty() && !sides[1].empty())
-    {
-      sides[0].assign(size, fallback);
-    }
-  };
-  readSides(names::DiffuseReflectance, 1.0, this->DiffuseReflectance, optics.DiffuseReflectance);
-  readSides(names::SpecularReflectance, 1.0, 0.0, optics.SpecularReflectance);
-  readSides(names::EmittedExitance, infinite, 0.0, optics.EmittedExitance);
-  read(names::Transmittance, 0.0, 1.0, 0.0, optics.Transmittance);
-  for (auto& side : optics.DiffuseReflectance)
-  {
-    if (side.empty())
-    {
-      side.assign(size, this->DiffuseReflectance);
-    }
-  }
-  optics.TwoSided.assign(scene.Cells, this->TwoSided ? 1 : 0);
-  for (const Block& block : this->Surface)
-  {
-    if (vtkDataArray* array = FindArray(block, names::TwoSided))
-    {
-      const bool whole = array->GetNumberOfTuples() == 1 && block.Cells != 1;
-      for (vtkIdType c = 0; c < block.Cells; ++c)
-      {
-        optics.TwoSided[block.FirstCell + c] = array->GetComponent(whole ? 0 : c, 0) != 0.0;
-      }
-    }
-  }
-
-  // What is reflected and transmitted may not exceed what came.
-  for (const Block& block : this->Surface)
-  {
-    for (vtkIdType c = 0; c < block.Cells; ++c)
-    {
-      for (int b = 0; b < bands; ++b)
-      {
-        const std::size_t at = (block.FirstCell + c) * bands + b;
-        for (int side = 0; side < 2; ++side)
-        {
-          const double sum = optics.DiffuseReflectance[side][at] +
-            (optics.SpecularReflectance[side].empty() ? 0.0
-                                                      : optics.SpecularReflectance[side][at]) +
-            (optics.Transmittance.empty() ? 0.0 : optics.Transmittance[at]);
-          if (sum > 1.0 + 1e-12)
-          {
-            throw InputError(block.Name +
-                "DiffuseReflectance + SpecularReflectance + Transmittance",
-              c, sum, "at most 1 in each band");
-          }
-        }
-      }
-    }
-  }
 }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "radiometry/scene/LightFrames.h"
 #include "radiometry/scene/Scene.h"
 
+#include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
-class vtkDataArray;
 class vtkDataObject;
 class vtkPolyData;
 
@@ -37,6 +40,12 @@ public:
   {
   }
 
+  /// Where lights that are attached to the object or to the camera stand, in the caller's unit. A
+  /// field array ObjectTransform of the surface goes before `object`. To be set before AddSurface.
+  void SetFrames(const radiometry::Affine& object, const radiometry::ViewFrame& view);
+  /// Irradiance of every point, in each band, beside what the field arrays of lights give [W/m^2].
+  void SetGlobalAmbient(double irradiance) { this->GlobalAmbient = irradiance; }
+
   /// Surface data: polydata, any composite of datasets, or a dataset whose outer surface is taken.
   void AddSurface(vtkDataObject* data);
   /// The same, only blocking light.
@@ -53,6 +62,9 @@ public:
 
 private:
   void ReadMaterials(radiometry::Scene& scene) const;
+  void ReadTransmittance(
+    const std::vector<std::int32_t>& occluderCells, radiometry::Scene& scene) const;
+  void ReadAmbient(radiometry::Scene& scene) const;
   int FindBands() const;
 
   double MetersPerUnit;
@@ -62,4 +74,9 @@ private:
   std::vector<Block> Occluders;
   std::vector<Block> Lights;
   std::size_t Empty = 0;
+  radiometry::Affine ObjectTransform{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+  radiometry::ViewFrame View;
+  bool OwnTransform = false; // ObjectTransform is the surface's own
+  double GlobalAmbient = 0.0;
+  std::vector<std::pair<std::string, vtkSmartPointer<vtkDataArray>>> AmbientArrays;
 };

@@ -13,9 +13,11 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -41,6 +43,11 @@ public:
 private:
   vtkAlgorithm* Filter;
 };
+
+radiometry::Vec3 Vector(const double* v)
+{
+  return { v[0], v[1], v[2] };
+}
 
 void CheckRange(const char* name, double value, double least, double most, const char* expected)
 {
@@ -108,6 +115,11 @@ void vtkRadiometricFilter::RemoveLightsConnections()
 void vtkRadiometricFilter::RemoveOccludersConnections()
 {
   this->SetInputConnection(2, nullptr);
+}
+
+void vtkRadiometricFilter::SetObjectTransform(vtkMatrix4x4* matrix)
+{
+  this->SetObjectTransform(matrix->GetData());
 }
 
 int vtkRadiometricFilter::FillInputPortInformation(int port, vtkInformation* info)
@@ -181,6 +193,11 @@ int vtkRadiometricFilter::RequestData(
     CheckRange("LuminousEfficacy", this->LuminousEfficacy, 1e-300, infinite, "lm/W, above 0");
 
     SceneAdapter adapter(this->MetersPerUnit, this->TwoSided, this->DiffuseReflectance);
+    adapter.SetGlobalAmbient(this->GlobalAmbient);
+    radiometry::Affine object;
+    std::copy_n(this->ObjectTransform, object.size(), object.begin());
+    adapter.SetFrames(object,
+      { Vector(this->CameraPosition), Vector(this->CameraFocalPoint), Vector(this->CameraViewUp) });
     adapter.AddSurface(input);
     for (int k = 0; k < inputs[1]->GetNumberOfInformationObjects(); ++k)
     {
@@ -217,7 +234,12 @@ int vtkRadiometricFilter::RequestData(
             << "; SampleLocation=" << (this->SampleLocation == CELLS ? "Cells" : "Points")
             << "; TwoSided=" << this->TwoSided << "; MetersPerUnit=" << this->MetersPerUnit
             << "; ExposureTime=" << this->ExposureTime
-            << "; CellsWithoutArea=" << adapter.CellsWithoutArea();
+            << "; CellsWithoutArea=" << adapter.CellsWithoutArea() << "; GlobalAmbient=";
+    for (std::size_t b = 0; b < scene.GlobalAmbient.size(); ++b)
+    {
+      options << (b > 0 ? "," : "") << scene.GlobalAmbient[b];
+    }
+    options << (scene.GlobalAmbient.empty() ? "0" : "");
     const RadiometricResults writer(scene.Optics.Bands,
       this->Photometric ? this->LuminousEfficacy : 0.0, this->GetClassName(), options.str());
     writer.WriteSurface(result, adapter, points, output, input);
@@ -250,5 +272,6 @@ void vtkRadiometricFilter::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "TwoSided: " << this->TwoSided << '\n'
      << indent << "MetersPerUnit: " << this->MetersPerUnit << '\n'
      << indent << "ExposureTime: " << this->ExposureTime << " s\n"
+     << indent << "GlobalAmbient: " << this->GlobalAmbient << " W/m^2\n"
      << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
 }

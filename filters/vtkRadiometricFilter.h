@@ -5,6 +5,8 @@
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkRadiometryFiltersModule.h"
 
+class vtkMatrix4x4;
+
 /// What the simulating filters share: ports, switches, checks and the writing of results.
 ///   Ports   0 surface; 1 lights (repeatable, optional); 2 occluders (repeatable, optional).
 ///           Surface and occluders: polydata, composite data, or any dataset, whose outer surface
@@ -128,6 +130,34 @@ public:
   vtkSetMacro(ExposureTime, double);
   vtkGetMacro(ExposureTime, double);
   ///@}
+  ///@{
+  /// Irradiance that every point gets from all around, in each band, never in shadow [W/m^2].
+  /// Default 0. At least 0. Field arrays GlobalAmbient of the lights add to it.
+  vtkSetMacro(GlobalAmbient, double);
+  vtkGetMacro(GlobalAmbient, double);
+  ///@}
+  ///@{
+  /// Where the surface stands, as a 4 x 4 matrix row by row: moves the lights that are attached to
+  /// it (AttachedTo 1), whose data is in the object's own coordinates. The points of the surface are
+  /// taken as moved already: they stay where they are. Default: the identity. The last row is
+  /// 0 0 0 1 and the matrix has an inverse. A field array ObjectTransform (16 numbers) of the surface
+  /// goes before it.
+  vtkSetVectorMacro(ObjectTransform, double, 16);
+  vtkGetVectorMacro(ObjectTransform, double, 16);
+  void SetObjectTransform(vtkMatrix4x4* matrix);
+  ///@}
+  ///@{
+  /// The eye of the lights that are attached to the camera (AttachedTo 2), whose data is in eye
+  /// coordinates (the eye at the origin, x right, y up, -z into the picture), in the unit of the
+  /// surface's coordinates. Default: CameraPosition and CameraFocalPoint both (0, 0, 0), no camera,
+  /// with which such lights are an error; CameraViewUp (0, 1, 0).
+  vtkSetVector3Macro(CameraPosition, double);
+  vtkGetVector3Macro(CameraPosition, double);
+  vtkSetVector3Macro(CameraFocalPoint, double);
+  vtkGetVector3Macro(CameraFocalPoint, double);
+  vtkSetVector3Macro(CameraViewUp, double);
+  vtkGetVector3Macro(CameraViewUp, double);
+  ///@}
 
   ///@{
   /// What to simulate: 0 Auto (default; what the scene calls for), 1 On, 2 Off (left out, and the
@@ -180,6 +210,11 @@ protected:
   bool Photometric = false;
   double LuminousEfficacy = 683.002;
   double ExposureTime = 0.0;
+  double GlobalAmbient = 0.0;
+  double ObjectTransform[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+  double CameraPosition[3] = { 0.0, 0.0, 0.0 };
+  double CameraFocalPoint[3] = { 0.0, 0.0, 0.0 };
+  double CameraViewUp[3] = { 0.0, 1.0, 0.0 };
   int Occlusion = AUTO;
   int Interreflection = AUTO;
   int SpecularTransport = AUTO;

@@ -19,6 +19,10 @@ double Greatest(const std::array<std::vector<double>, 2>& sides)
 {
   return std::max(Greatest(sides[0]), Greatest(sides[1]));
 }
+double GreatestTransmittance(const Scene& scene)
+{
+  return std::max(Greatest(scene.Optics.Transmittance), Greatest(scene.TriangleTransmittance));
+}
 bool AnyOn(const std::vector<std::uint8_t>& flags)
 {
   return std::any_of(flags.begin(), flags.end(), [](std::uint8_t f) { return f != 0; });
@@ -33,14 +37,18 @@ bool LightsInside(const Scene& scene)
     {
       continue;
     }
-    if (light.Type == LightType::Directional)
+    if (light.Type == LightType::Directional || light.Type == LightType::Environment)
     {
       return false;
     }
+    const std::vector<Vec3> places =
+      light.Type == LightType::Area ? light.Polygon : std::vector<Vec3>{ light.Position };
     for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
     {
       const Triangle3 v = scene.TriangleAt(t);
-      if (Dot(AreaNormal2(v), light.Position - v[0]) <= 0.0)
+      const Vec3 n = AreaNormal2(v);
+      if (std::any_of(places.begin(), places.end(),
+            [&](const Vec3& p) { return Dot(n, p - v[0]) <= 0.0; }))
       {
         return false;
       }
@@ -62,6 +70,7 @@ const char* EffectName(Effect effect)
 EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,
   const EffectAbilities& abilities, bool freePoints)
   : Decisions(EffectCount)
+  , Indirect(abilities.Interreflection)
 {
   const Materials& optics = scene.Optics;
   const Convexity convexity = FindConvexity(scene);
@@ -104,7 +113,8 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
   const double emitted = Greatest(optics.EmittedExitance);
   const double reflectance = Greatest(optics.DiffuseReflectance);
   const double specular = Greatest(optics.SpecularReflectance);
-  const double transmitted = Greatest(optics.Transmittance);
+  const double transmitted = GreatestTransmittance(scene);
+  const bool lit = any || emitted > 0.0 || Greatest(scene.GlobalAmbient) > 0.0;
 
   const bool shadowless = !twoSided && !(freePoints && !scene.Triangles.empty()) &&
     (convexity == Convexity::Body || (convexity == Convexity::Room && LightsInside(scene)));
@@ -115,15 +125,18 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
                                       : "a convex room with its lights inside: nothing stands between"),
     "surfaces may stand between a light and a cell");
   decide(Effect::Interreflection,
-    reflectance > 0.0 && (convexity != Convexity::Body || twoSided) && (any || emitted > 0.0),
+    reflectance > 0.0 && (convexity != Convexity::Body || twoSided) && lit,
     abilities.Interreflection,
     reflectance <= 0.0 ? "no surface reflects diffusely"
-                       : (any || emitted > 0.0 ? "no front faces another" : "no light is on"),
+                       : (lit ? "no front faces another" : "no light is on"),
     "surfaces face each other and reflect up to " + std::to_string(reflectance));
   decide(Effect::SpecularTransport, specular > 0.0, abilities.SpecularTransport,
     "no surface reflects specularly", "surfaces reflect specularly");
-  decide(Effect::Transmission, transmitted > 0.0, abilities.Transmission,
-    "every surface is opaque", "some surfaces transmit light");
+  decide(Effect::Transmission, transmitted > 0.0 && (*this)[Effect::Occlusion].Present,
+    abilities.Transmission,
+    transmitted > 0.0 ? "nothing stands between a light and a cell" : "every surface is opaque",
+    "panes let up to " + std::to_string(transmitted) + " of the direct light through" +
+      (this->Indirect ? "; what surfaces send or reflect does not pass them (bound given)" : ""));
   decide(Effect::BackFaces, twoSided, true, "no surface is two-sided",
     "two-sided surfaces receive on their backs");
   decide(Effect::Emission, emitted > 0.0, abilities.Emission, "no surface emits",
@@ -143,20 +156,28 @@ void EffectPlan::Bound(
   const Materials& optics = scene.Optics;
   const double emitted = Greatest(optics.EmittedExitance);
   const double specular = Greatest(optics.SpecularReflectance);
-  const double transmitted = Greatest(optics.Transmittance);
-  const double reflectance =
-    std::max(0.0, Greatest(optics.DiffuseReflectance)) + specular + transmitted;
+  const double transmitted = GreatestTransmittance(scene);
+  const double ambient = Greatest(scene.GlobalAmbient);
+  const double diffuse = Greatest(optics.DiffuseReflectance);
+  const double reflectance = diffuse + specular + transmitted;
   // No point gets more than all that any surface sends, were it all around it: E0/(1 - rho).
-  const double sent = std::max(peak, peakBack) * reflectance + emitted;
+  const double direct = std::max(peak, peakBack);
+  const double sent = (direct + ambient) * reflectance + emitted;
   const double indirect = reflectance < 1.0 ? sent / (1.0 - reflectance) : infinite;
   const auto orNothing = [](double factor, double value) { return factor > 0.0 ? value : 0.0; };
 
+  // Through panes: what comes straight; then all that any surface sends, and what that adds by
+  // reflection.
+  const double passing = this->Indirect
+    ? (reflectance < 1.0 ? transmitted * indirect / (1.0 - diffuse) : infinite)
+    : 0.0;
+
   const double bounds[EffectCount] = {
     peak + emitted,                                                          // Occlusion
-    reflectance < 1.0 ? (peak + emitted) * reflectance / (1.0 - reflectance)
-                      : orNothing(peak + emitted, infinite),                 // Interreflection
-    orNothing(specular, specular * (std::max(peak, peakBack) + indirect)),   // SpecularTransport
-    orNothing(transmitted, transmitted * (std::max(peak, peakBack) + indirect)), // Transmission
+    reflectance < 1.0 ? (peak + ambient + emitted) * reflectance / (1.0 - reflectance)
+                      : orNothing(peak + ambient + emitted, infinite),       // Interreflection
+    orNothing(specular, specular * (direct + ambient + indirect)),           // SpecularTransport
+    orNothing(transmitted, transmitted * (direct + emitted) + passing),      // Transmission
     peakBack,                                                                // BackFaces
     orNothing(emitted, reflectance < 1.0 ? emitted / (1.0 - reflectance) : infinite), // Emission
     infinite,                                                                // Environment
@@ -167,6 +188,11 @@ void EffectPlan::Bound(
   {
     EffectDecision& d = this->Decisions[k];
     d.Bound = d.Present && !d.Simulated ? bounds[k] : 0.0;
+  }
+  EffectDecision& panes = (*this)[Effect::Transmission];
+  if (panes.Present && panes.Simulated)
+  {
+    panes.Bound = passing;
   }
 }
 

@@ -41,6 +41,7 @@ struct EffectDecision
   std::string Why;
   double Bound = 0.0;    // greatest change of any irradiance value that leaving it out can make,
                          // W/m^2, in any band; infinite where none can be given; 0 when simulated
+                         // (Transmission: what is left out of it, the indirect light)
   double Seconds = 0.0;  // spent on it
 };
 
@@ -50,7 +51,7 @@ struct EffectAbilities
   bool Interreflection = false; // false for direct light alone
   bool Emission = false;
   bool SpecularTransport = false;
-  bool Transmission = false;
+  bool Transmission = false; // of direct light; light that surfaces send never passes panes
   bool Environment = false;
 };
 
@@ -82,6 +83,7 @@ public:
 
 private:
   std::vector<EffectDecision> Decisions;
+  bool Indirect; // the run follows light from surface to surface
 };
 
 } // namespace radiometry

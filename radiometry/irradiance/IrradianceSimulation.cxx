@@ -125,7 +125,9 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   Report(monitor, 0.0, "planning");
   const bool freePoints = std::any_of(
     points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
-  EffectPlan plan(scene, options.Switches, EffectAbilities{}, freePoints);
+  EffectAbilities abilities;
+  abilities.Transmission = false; // beams do not ask for it yet
+  EffectPlan plan(scene, options.Switches, abilities, freePoints);
   const OcclusionScene occluders(scene);
 
   DirectOptions direct;
@@ -134,6 +136,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   direct.Occlusion = plan.Simulates(Effect::Occlusion);
   direct.SpotShape = plan.Simulates(Effect::SpotShape);
   direct.Attenuation = plan.Simulates(Effect::Attenuation);
+  direct.Transmission = plan.Simulates(Effect::Transmission);
   direct.Threads = options.Threads;
 
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;

@@ -16,6 +16,7 @@ inline constexpr char EmittedExitance[] = "EmittedExitance";
 inline constexpr char Transmittance[] = "Transmittance";
 inline constexpr char Ambient[] = "Ambient";
 inline constexpr char TwoSided[] = "TwoSided"; // 0 or 1 per cell; overrides the filter's property
+inline constexpr char ObjectTransform[] = "ObjectTransform"; // field data, 16 numbers
 inline constexpr char BackPrefix[] = "Back";   // BackDiffuseReflectance, ...
 
 // Lights (point data, one vertex a light)

@@ -68,12 +68,23 @@ void SceneBuilder::AddMesh(Role role, const std::vector<Vec3>& points,
     }
     this->Triangles.push_back(corners);
     this->TriangleCell.push_back(role == Role::Receiver ? cell[t] : -1);
-    this->ReceiverTriangles += role == Role::Receiver ? 1 : 0;
+    if (role == Role::Receiver)
+    {
+      ++this->ReceiverTriangles;
+    }
+    else
+    {
+      this->OccluderCell.push_back(cell[t]);
+    }
   }
 }
 
-Scene SceneBuilder::Finish(std::size_t cells)
+Scene SceneBuilder::Finish(std::size_t cells, std::vector<std::int32_t>* occluderCells)
 {
+  if (occluderCells)
+  {
+    *occluderCells = std::move(this->OccluderCell);
+  }
   Scene scene;
   scene.Cells = cells;
   scene.ReceiverTriangles = this->ReceiverTriangles;

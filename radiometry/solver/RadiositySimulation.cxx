@@ -58,7 +58,7 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   const bool reflects = m.Context.Options.Interreflection &&
     std::any_of(optics.Reflectance.begin(), optics.Reflectance.end(), positive);
   const bool emits = std::any_of(optics.Exitance.begin(), optics.Exitance.end(), positive);
-  const bool lit = emits ||
+  const bool lit = emits || !m.Context.Geometry.GlobalAmbient.empty() ||
     std::any_of(m.Context.Geometry.Lights.begin(), m.Context.Geometry.Lights.end(),
       [](const Light& light) { return light.Enabled; });
   const bool lightsOnly =

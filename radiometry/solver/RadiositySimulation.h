@@ -84,7 +84,8 @@ struct RadiosityResult
 };
 
 /// Direct light, emission and interreflection on a scene.
-///   Reads    scene.Lights, Optics.DiffuseReflectance, EmittedExitance, TwoSided (front and back)
+///   Reads    scene.Lights, GlobalAmbient (as light that arrives), Optics.DiffuseReflectance,
+///            EmittedExitance, TwoSided (front and back)
 ///   Model    B = M + rho E, E = E_lights + int F dB: diffuse radiosity; specular and transmitted
 ///            parts are not followed
 ///   Values   averages over the cells; E of a cell of many elements is their area-weighted mean

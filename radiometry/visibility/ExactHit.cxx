@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -20,9 +19,32 @@ constexpr double NeighbourMargin = 4e-6;
 
 } // namespace
 
+EdgeFunctions FindEdgeFunctions(const RayQuery& ray, const Triangle3& triangle)
+{
+  double volumes[3];
+  double longest = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    Vec3 a = triangle[k];
+    Vec3 b = triangle[(k + 1) % 3];
+    const bool swap = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
+    if (swap)
+    {
+      std::swap(a, b);
+    }
+    const double volume = Dot(ray.Direction, Cross(a - ray.Start, b - ray.Start));
+    longest = std::max(longest, Length(b - a));
+    volumes[k] = swap ? -volume : volume;
+  }
+  const auto [least, most] = std::minmax({ volumes[0], volumes[1], volumes[2] });
+  const double middle = std::max(std::min(volumes[0], volumes[1]),
+    std::min(std::max(volumes[0], volumes[1]), volumes[2]));
+  return { least, middle, most, longest };
+}
+
 Verdict Judge(const RayQuery& ray, std::int32_t t, bool strict, double& distance)
 {
-  if (t == ray.FromTriangle || t == ray.ToTriangle)
+  if (t == ray.FromTriangle || t == ray.ToTriangle || (ray.Passed && (*ray.Passed)[t]))
   {
     return Verdict::Miss;
   }
@@ -47,31 +69,13 @@ Verdict Judge(const RayQuery& ray, std::int32_t t, bool strict, double& distance
   {
     return Verdict::Hit;
   }
-  // Edge functions: volumes of the ray with each edge; equal signs (or zero) mean inside. An edge
-  // is always taken in the same direction, so that both its triangles compute the same number.
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  double scale = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    Vec3 a = v[k];
-    Vec3 b = v[(k + 1) % 3];
-    const bool swap = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
-    if (swap)
-    {
-      std::swap(a, b);
-    }
-    const double volume = Dot(ray.Direction, Cross(a - ray.Start, b - ray.Start));
-    scale = std::max(scale, Length(b - a));
-    least = std::min(least, swap ? -volume : volume);
-    most = std::max(most, swap ? -volume : volume);
-  }
-  if (least >= 0.0 || most <= 0.0)
+  const EdgeFunctions f = FindEdgeFunctions(ray, v);
+  if (f.Least >= 0.0 || f.Most <= 0.0)
   {
     return Verdict::Hit;
   }
-  const double outside = std::min(-least, most);
-  return outside < NeighbourMargin * scale ? Verdict::RimMiss : Verdict::Miss;
+  const double outside = std::min(-f.Least, f.Most);
+  return outside < NeighbourMargin * f.Scale ? Verdict::RimMiss : Verdict::Miss;
 }
 
 } // namespace radiometry

@@ -31,6 +31,7 @@ struct RayQuery
   const std::vector<Vec3>* Normals = nullptr;
   bool Ambiguous = false;      // single precision met a triangle's rim near an end
   bool Exact = false;          // an end is too close to a surface for single precision
+  const std::vector<std::uint8_t>* Passed = nullptr; // by triangle, 1: not asked; null: all are
 };
 
 enum class Verdict
@@ -39,6 +40,17 @@ enum class Verdict
   Hit,
   RimMiss // outside by so little that a neighbour may have been meant
 };
+
+/// Volumes of a ray with each edge of a triangle; all of one sign (or zero) where it passes inside.
+/// An edge is always taken in the same direction, so that both its triangles compute one number.
+struct EdgeFunctions
+{
+  double Least;
+  double Middle;
+  double Most;
+  double Scale; // the longest edge
+};
+EdgeFunctions FindEdgeFunctions(const RayQuery& ray, const Triangle3& triangle);
 
 /// Decides in double whether the open segment of `ray` crosses triangle `t`. With `strict`, the
 /// crossing must be inside the triangle; without, only the plane is judged (single precision has

@@ -4,6 +4,7 @@
 #include "radiometry/geometry/BoxTree.h"
 #include "radiometry/visibility/ExactHit.h"
 #include "radiometry/visibility/ShadowLines.h"
+#include "radiometry/visibility/Transmission.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -96,6 +97,8 @@ struct OcclusionScene::Internals
   RTCScene Handle = nullptr;
   std::once_flag LinesFlag;
   std::unique_ptr<ShadowLines> Lines;
+  int Bands = 1;
+  std::unique_ptr<Transmission> Panes; // null: all is opaque
 
   ~Internals()
   {
@@ -201,6 +204,16 @@ struct OcclusionScene::Internals
     return q;
   }
 
+  RayQuery MakeQuery(const RayEnd& from, const RayEnd& to) const
+  {
+    RayQuery q = this->MakeQuery(from, to.Point - from.Point);
+    q.Length = this->Scale * radiometry::Length(to.Point - from.Point);
+    q.ToTriangle = to.Triangle;
+    q.Exact = q.Exact || to.Close ||
+      (to.Triangle >= 0 && this->NearRim(this->ToBox(to.Point), to.Triangle));
+    return q;
+  }
+
   static void FillRay(RTCRay& ray, const RayQuery& q, double begin, double end)
   {
     const Vec3 start = q.Start + (begin - EndMargin) * q.Direction;
@@ -268,6 +281,25 @@ struct OcclusionScene::Internals
       return true;
     }
     return q.Ambiguous && this->ExactClosest(q, begin, end).Triangle >= 0;
+  }
+
+  /// What gets through along the ray, a share a band.
+  bool Visible(RayQuery q, double* bands) const
+  {
+    std::fill(bands, bands + this->Bands, 1.0);
+    q.Passed = this->Panes ? &this->Panes->Panes() : nullptr;
+    if (this->Occluded(q))
+    {
+      return false;
+    }
+    double begin = 0.0;
+    double end = 0.0;
+    if (!this->Panes || !(q.Length > 0.0) || !this->Clip(q, begin, end))
+    {
+      return true;
+    }
+    q.Passed = nullptr;
+    return this->Panes->Pass(begin > 0.0 ? From(q, begin) : q, bands);
   }
 
   SurfaceHit Closest(RayQuery q) const
@@ -358,6 +390,7 @@ OcclusionScene::OcclusionScene(const Scene& scene)
   : Impl(std::make_unique<Internals>())
 {
   const std::size_t count = scene.Triangles.size();
+  this->Impl->Bands = scene.Optics.Bands;
   if (count == 0)
   {
     return;
@@ -391,6 +424,10 @@ OcclusionScene::OcclusionScene(const Scene& scene)
     this->Impl->Normals[t] = Normalized(AreaNormal2(scaled));
   }
   this->Impl->Tree = BoxTree(boxes);
+  if (Transmission::Present(scene))
+  {
+    this->Impl->Panes = std::make_unique<Transmission>(scene, boxes);
+  }
 
   RTCDevice device = Device();
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -448,12 +485,23 @@ const ShadowLines& OcclusionScene::Lines(
 
 bool OcclusionScene::Occluded(const RayEnd& from, const RayEnd& to) const
 {
-  RayQuery q = this->Impl->MakeQuery(from, to.Point - from.Point);
-  q.Length = this->Impl->Scale * Length(to.Point - from.Point);
-  q.ToTriangle = to.Triangle;
-  q.Exact = q.Exact || to.Close ||
-    (to.Triangle >= 0 && this->Impl->NearRim(this->Impl->ToBox(to.Point), to.Triangle));
-  return this->Impl->Occluded(q);
+  return this->Impl->Occluded(this->Impl->MakeQuery(from, to));
+}
+
+bool OcclusionScene::Visible(const RayEnd& from, const RayEnd& to, double* bands) const
+{
+  return this->Impl->Visible(this->Impl->MakeQuery(from, to), bands);
+}
+
+bool OcclusionScene::VisibleDirection(
+  const RayEnd& from, const Vec3& direction, double* bands) const
+{
+  return this->Impl->Visible(this->Impl->MakeQuery(from, direction), bands);
+}
+
+bool OcclusionScene::HasPanes() const
+{
+  return this->Impl->Panes != nullptr;
 }
 
 bool OcclusionScene::OccludedDirection(const RayEnd& from, const Vec3& direction) const

@@ -51,6 +51,13 @@ public:
   bool Occluded(const RayEnd& from, const RayEnd& to) const;
   /// True when the ray from `from` along `direction` (any length) meets anything.
   bool OccludedDirection(const RayEnd& from, const Vec3& direction) const;
+  /// What gets from one end to the other straight through the panes in between (Transmission.h), a
+  /// share a band; false, and no band told, when nothing does. `bands` has room for the scene's.
+  bool Visible(const RayEnd& from, const RayEnd& to, double* bands) const;
+  /// The same along a ray from `from` (any length).
+  bool VisibleDirection(const RayEnd& from, const Vec3& direction, double* bands) const;
+  /// True when some triangle lets light through; the queries above but these two take it as opaque.
+  bool HasPanes() const;
   /// The lines at which shadows can begin or end, found when first asked for. `scene`: the one this
   /// was made of.
   const ShadowLines& Lines(
