@@ -5,6 +5,7 @@
 #include "radiometry/geometry/SolidAngle.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace radiometry
@@ -40,10 +41,11 @@ struct Arc
   Vec3 Normal; // A x T
   double Length;
 
-  Arc(const Vec3& from, const Vec3& to)
+  /// `edge` is to - from, from the coordinates as they were given: keeps its digits for short arcs.
+  Arc(const Vec3& from, const Vec3& to, const Vec3& edge)
     : A(Normalized(from))
   {
-    const Vec3 m = Cross(from, to - from); // keeps its digits for short arcs
+    const Vec3 m = Cross(from, edge);
     const double sine = radiometry::Length(m);
     this->Length = std::atan2(sine, Dot(from, to));
     this->Normal = sine > 0.0 ? m / sine : Vec3{};
@@ -51,19 +53,20 @@ struct Arc
   }
   Vec3 At(double s) const { return std::cos(s) * this->A + std::sin(s) * this->T; }
 
-  /// Appends where the arc crosses the cone of this cosine about the axis.
-  void Crossings(const Vec3& axis, double cosine, std::vector<double>& at) const
+  /// Appends where the arc crosses the cone of this versine about the axis.
+  void Crossings(const Vec3& axis, double versine, std::vector<double>& at) const
   {
-    // cos s (A.w) + sin s (T.w) = cosine
+    // cos s (A.w) + sin s (T.w) = 1 - versine; (A.w)^2 + (T.w)^2 = 1 - (Normal.w)^2
     const double x = Dot(this->A, axis);
     const double y = Dot(this->T, axis);
-    const double r = std::hypot(x, y);
-    if (r <= std::fabs(cosine))
+    const double sine = std::sqrt(std::max(0.0, versine * (2.0 - versine)));
+    const double lift = std::fabs(Dot(this->Normal, axis));
+    if (lift >= sine)
     {
       return;
     }
     const double peak = std::atan2(y, x);
-    const double spread = std::acos(std::clamp(cosine / r, -1.0, 1.0));
+    const double spread = std::atan2(std::sqrt((sine - lift) * (sine + lift)), 1.0 - versine);
     for (const double s : { peak - spread, peak + spread, peak - spread + 2.0 * Pi,
            peak + spread - 2.0 * Pi })
     {
@@ -74,11 +77,6 @@ struct Arc
     }
   }
 };
-
-double Versine(const Vec3& unit, const Vec3& axis)
-{
-  return 0.5 * LengthSquared(unit - axis);
-}
 
 /// The azimuth swept about the axis between two directions of one great-circle arc shorter than pi.
 double AzimuthSwept(const Vec3& from, const Vec3& to, const Vec3& axis)
@@ -91,26 +89,24 @@ double AzimuthSwept(const Vec3& from, const Vec3& to, const Vec3& axis)
 /// The mean intensity by a rule of degree 7, weighted by the solid angle's density, times the exact
 /// solid angle.
 double SmallPolygon(const Vec3* polygon, std::size_t count, const Vec3& axis,
-  const AxialDistribution& distribution)
+  const AxialDistribution& distribution, const Vec3& from)
 {
   const TriangleRule& rule = TriangleRuleOfDegree(7);
   double sum = 0.0;
   for (std::size_t k = 2; k < count; ++k)
   {
-    const Vec3& a = polygon[0];
-    const Vec3& b = polygon[k - 1];
-    const Vec3& c = polygon[k];
+    const Vec3 triangle[3] = { polygon[0], polygon[k - 1], polygon[k] };
     double weighted = 0.0;
     double weights = 0.0;
     for (const TriangleRule::Node& q : rule.Nodes)
     {
-      const Vec3 p = q.B0 * a + q.B1 * b + q.B2 * c;
+      const Vec3 p = q.B0 * triangle[0] + q.B1 * triangle[1] + q.B2 * triangle[2] - from;
       const double l = Length(p);
       const double density = q.Weight / (l * l * l);
-      weighted += density * distribution.Intensity(Dot(p, axis) / l);
+      weighted += density * distribution.IntensityAt(Versine(p / l, axis));
       weights += density;
     }
-    sum += SolidAngle(a, b, c) * (weighted / weights);
+    sum += SolidAngle(triangle, 3, from) * (weighted / weights);
   }
   return sum;
 }
@@ -119,23 +115,32 @@ double SmallPolygon(const Vec3* polygon, std::size_t count, const Vec3& axis,
 
 AxialDistribution::AxialDistribution(
   double exponent, double cosOuter, bool smooth, double cosInner)
-  : Exponent(exponent)
-  , CosOuter(exponent > 0.0 ? std::max(cosOuter, 0.0) : cosOuter)
-  , SmoothEdge(smooth && cosInner > CosOuter)
-  , CosInnerEdge(SmoothEdge ? cosInner : CosOuter)
 {
+  *this = FromVersines(exponent, 1.0 - cosOuter, smooth, 1.0 - cosInner);
 }
 
-double AxialDistribution::Intensity(double cosine) const
+AxialDistribution AxialDistribution::FromVersines(
+  double exponent, double outer, bool smooth, double inner)
 {
-  if (cosine < this->CosOuter || (this->Exponent > 0.0 && cosine <= 0.0))
+  AxialDistribution made;
+  made.Exponent = exponent;
+  made.Outer = exponent > 0.0 ? std::min(outer, 1.0) : outer;
+  made.SmoothEdge = smooth && inner < made.Outer;
+  made.Inner = made.SmoothEdge ? inner : made.Outer;
+  return made;
+}
+
+double AxialDistribution::IntensityAt(double versine) const
+{
+  const double v = std::max(versine, 0.0);
+  if (v > this->Outer || (this->Exponent > 0.0 && v >= 1.0))
   {
     return 0.0;
   }
-  double value = this->Exponent > 0.0 ? std::pow(std::min(cosine, 1.0), this->Exponent) : 1.0;
-  if (this->SmoothEdge && cosine < this->CosInnerEdge)
+  double value = this->Exponent > 0.0 ? std::exp(this->Exponent * std::log1p(-v)) : 1.0;
+  if (this->SmoothEdge && v > this->Inner)
   {
-    const double t = (cosine - this->CosOuter) / (this->CosInnerEdge - this->CosOuter);
+    const double t = (this->Outer - v) / (this->Outer - this->Inner);
     value *= t * t;
   }
   return value;
@@ -144,34 +149,32 @@ double AxialDistribution::Intensity(double cosine) const
 double AxialDistribution::Cumulative(double versine) const
 {
   const double n = this->Exponent + 1.0;
-  const double v = std::min(versine, 1.0 - this->CosOuter);
-  const double inner = 1.0 - this->CosInnerEdge;
+  const double v = std::min(versine, this->Outer);
+  const double inner = this->Inner;
   if (!this->SmoothEdge || v <= inner)
   {
     return this->Exponent == 0.0 ? v : PowerIntegral(n, v);
   }
-  const double c = 1.0 - v;
-  const double co = this->CosOuter;
-  const double ci = this->CosInnerEdge;
-  // int of x^e (x - co)^2 over x in [c, ci], scaled: by Gauss where the band is narrow, because
-  // the antiderivatives would cancel.
-  const auto density = [&](double x) {
-    const double t = (x - co) / (ci - co);
-    return t * t * (this->Exponent == 0.0 ? 1.0 : std::pow(std::max(x, 0.0), this->Exponent));
-  };
+  const double width = this->Outer - inner;
   double band = 0.0;
   if (this->Exponent == 0.0)
   {
-    const double t = (c - co) / (ci - co);
-    band = (ci - co) * (1.0 - t * t * t) / 3.0;
+    const double t = (this->Outer - v) / width;
+    band = width * (1.0 - t * t * t) / 3.0;
   }
   else
   {
-    const int panels = 1 + static_cast<int>((ci - c) * (2.0 + this->Exponent));
+    // int of (1 - u)^e ((outer - u)/width)^2 du over [inner, v]: by Gauss, because the
+    // antiderivatives would cancel where the band is narrow.
+    const auto density = [&](double u) {
+      const double t = (this->Outer - u) / width;
+      return t * t * std::pow(std::max(1.0 - u, 0.0), this->Exponent);
+    };
+    const int panels = 1 + static_cast<int>((v - inner) * (2.0 + this->Exponent));
     for (int k = 0; k < panels; ++k)
     {
-      const double h = (ci - c) / panels;
-      band += Gauss(c + k * h, c + (k + 1) * h, density);
+      const double h = (v - inner) / panels;
+      band += Gauss(inner + k * h, inner + (k + 1) * h, density);
     }
   }
   return (this->Exponent == 0.0 ? inner : PowerIntegral(n, inner)) + band;
@@ -183,19 +186,23 @@ double AxialDistribution::TotalFlux() const
 }
 
 double AxialFlux(const Vec3* polygon, std::size_t count, const Vec3& axis,
-  const AxialDistribution& distribution)
+  const AxialDistribution& distribution, const Vec3& from, double* rounding)
 {
+  if (rounding)
+  {
+    *rounding = 0.0; // relative to the flux: the caller knows
+  }
   if (count < 3)
   {
     return 0.0;
   }
   if (distribution.Isotropic())
   {
-    return SolidAngle(polygon, count);
+    return SolidAngle(polygon, count, from);
   }
 
   // How far the polygon reaches, and whether a cone's edge may cross it.
-  const double whole = SolidAngle(polygon, count);
+  const double whole = SolidAngle(polygon, count, from);
   if (whole == 0.0)
   {
     return 0.0;
@@ -204,36 +211,46 @@ double AxialFlux(const Vec3* polygon, std::size_t count, const Vec3& axis,
   double size = 0.0;
   for (std::size_t k = 0; k < count; ++k)
   {
-    arcs.emplace_back(polygon[k], polygon[(k + 1) % count]);
+    const Vec3& next = polygon[(k + 1) % count];
+    arcs.emplace_back(polygon[k] - from, next - from, next - polygon[k]);
     size = std::max(size, arcs.back().Length);
   }
-  const double coneEdges[2] = { distribution.CosLimit(), distribution.CosInner() };
+  const double coneEdges[2] = { distribution.VersineLimit(), distribution.VersineInner() };
   std::vector<double> cuts;
   bool crossed = false;
   for (const Arc& arc : arcs)
   {
-    for (const double cosine : coneEdges)
+    for (const double versine : coneEdges)
     {
       cuts.clear();
-      arc.Crossings(axis, cosine, cuts);
+      arc.Crossings(axis, versine, cuts);
       crossed = crossed || !cuts.empty();
     }
   }
+  const bool within = std::all_of(arcs.begin(), arcs.end(), [&](const Arc& arc) {
+    return Versine(arc.A, axis) < distribution.VersineInner();
+  });
+  if (distribution.GetExponent() == 0.0 && within && !crossed && distribution.VersineInner() <= 1.0)
+  {
+    return whole; // all of it inside a convex cone of constant intensity
+  }
   // A cone smaller than the polygon may lie inside it without crossing its rim.
   const double nearest = Versine(arcs[0].A, axis);
-  const double coneAngle = std::acos(std::clamp(distribution.CosInner(), -1.0, 1.0));
+  const double coneAngle =
+    2.0 * std::asin(std::min(1.0, std::sqrt(0.5 * distribution.VersineInner())));
   const bool coneInside = 2.0 * std::asin(std::min(1.0, std::sqrt(0.5 * nearest))) < size &&
     coneAngle < 2.0 * size;
   if (!crossed && !coneInside && size * (1.0 + distribution.GetExponent()) < 0.02)
   {
-    return SmallPolygon(polygon, count, axis, distribution);
+    return SmallPolygon(polygon, count, axis, distribution, from);
   }
 
-  const double outer = 1.0 - distribution.CosLimit();
+  const double outer = distribution.VersineLimit();
   const double beyond = distribution.Cumulative(2.0);
   double sum = 0.0;      // int of G d psi over the parts inside the cone
   double swept = 0.0;    // azimuth swept by the parts outside it
   double winding = 0.0;  // azimuth swept by the whole rim
+  double terms = 2.0 * Pi * beyond; // what is added up, without signs
   bool anyInside = false;
   for (const Arc& arc : arcs)
   {
@@ -245,9 +262,9 @@ double AxialFlux(const Vec3* polygon, std::size_t count, const Vec3& axis,
     winding += AzimuthSwept(arc.At(0.0), arc.At(0.5 * arc.Length), axis) +
       AzimuthSwept(arc.At(0.5 * arc.Length), arc.At(arc.Length), axis);
     cuts.assign(1, 0.0);
-    for (const double cosine : coneEdges)
+    for (const double versine : coneEdges)
     {
-      arc.Crossings(axis, cosine, cuts);
+      arc.Crossings(axis, versine, cuts);
     }
     cuts.push_back(arc.Length);
     std::sort(cuts.begin(), cuts.end());
@@ -279,6 +296,7 @@ double AxialFlux(const Vec3* polygon, std::size_t count, const Vec3& axis,
         part += Gauss(a + p * h, a + (p + 1) * h, integrand);
       }
       sum += lift * part;
+      terms += std::fabs(lift * part);
     }
   }
   // Seen from the source, the front's counter-clockwise turns against the azimuth about the axis,
@@ -288,6 +306,10 @@ double AxialFlux(const Vec3* polygon, std::size_t count, const Vec3& axis,
   {
     // The rim never enters the cone: all of the cone falls through the polygon, or none.
     return winding * facing < -Pi ? facing * 2.0 * Pi * beyond : 0.0;
+  }
+  if (rounding)
+  {
+    *rounding = 4.0 * std::numeric_limits<double>::epsilon() * terms;
   }
   const double pole = winding * facing > Pi ? facing * 2.0 * Pi * beyond : 0.0;
   const double flux = pole - (sum + beyond * swept);

@@ -15,20 +15,22 @@ struct HalfTangent
   double Scale;
 };
 
-HalfTangent MakeHalfTangent(const Vec3& a, const Vec3& b, const Vec3& c)
+/// `normal` is that of the triangle, of any length: (b - a) x (c - a).
+HalfTangent MakeHalfTangent(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal)
 {
   const double la = Length(a);
   const double lb = Length(b);
   const double lc = Length(c);
-  return { -Dot(a, Cross(b - a, c - a)),
+  return { -Dot(a, normal),
     la * lb * lc + Dot(a, b) * lc + Dot(b, c) * la + Dot(c, a) * lb, la * lb * lc };
 }
 
 /// For an origin close to the polygon compared with its size:
 ///   Omega = sum over edges of [psi - asin(h sin psi / sqrt(h^2 + p^2))]
 /// with psi the azimuth about the foot of the perpendicular (height h) and p the edge line's
-/// distance from the foot: no difference of nearly equal numbers, wherever the foot lies.
-double NearSolidAngle(const Vec3* polygon, std::size_t count)
+/// distance from the foot. The psi sum to 2 pi, or to nothing where the foot is outside: no
+/// difference of nearly equal numbers, wherever the foot lies.
+double NearSolidAngle(const Vec3* polygon, std::size_t count, const Vec3& from)
 {
   Vec3 normal;
   for (std::size_t k = 2; k < count; ++k)
@@ -36,30 +38,35 @@ double NearSolidAngle(const Vec3* polygon, std::size_t count)
     normal += Cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
   }
   normal = Normalized(normal);
-  const double height = -Dot(normal, polygon[0]);
+  const double height = Dot(normal, from - polygon[0]);
   if (height == 0.0)
   {
     return 0.0;
   }
   const double h = std::fabs(height);
   double sum = 0.0;
+  double winding = 0.0;
+  bool outside = false;
   for (std::size_t k = 0; k < count; ++k)
   {
-    const Vec3 a = polygon[k] + height * normal; // in the plane, from the foot
-    const Vec3 b = polygon[(k + 1) % count] + height * normal;
-    const Vec3 along = Normalized(b - a);
-    const double turn = Dot(normal, Cross(a, b));
-    const double p = std::fabs(Dot(normal, Cross(a, along)));
-    const double swept = std::atan2(turn, Dot(a, b));
+    const Vec3& first = polygon[k];
+    const Vec3& second = polygon[(k + 1) % count];
+    const Vec3 a = first - from + height * normal; // in the plane, from the foot
+    const Vec3 b = second - from + height * normal;
+    const Vec3 along = Normalized(second - first);
+    const double side = Dot(normal, Cross(a, along));
+    const double p = std::fabs(side);
+    outside = outside || side < 0.0;
+    winding += std::atan2(Dot(normal, Cross(a, second - first)), Dot(a, b));
     const double hp = std::hypot(h, p);
     const auto part = [&](const Vec3& v) {
       // asin(h sin psi / hp), as an atan2 of h s and p sqrt(h^2 + p^2 + s^2)
       const double s = Dot(v, along);
       return std::atan2(h * s, p * std::hypot(hp, s));
     };
-    sum += swept - std::copysign(part(b) - part(a), turn);
+    sum += std::copysign(part(b) - part(a), side);
   }
-  return std::copysign(sum, height);
+  return std::copysign((outside ? 0.0 : winding) - sum, height);
 }
 
 /// Below this cosine-like number the half tangent loses digits.
@@ -75,13 +82,22 @@ double SolidAngle(const Vec3& a, const Vec3& b, const Vec3& c)
 
 double SolidAngle(const Vec3* polygon, std::size_t count)
 {
+  return SolidAngle(polygon, count, Vec3{});
+}
+
+double SolidAngle(const Vec3* polygon, std::size_t count, const Vec3& from)
+{
   double sum = 0.0;
   for (std::size_t k = 2; k < count; ++k)
   {
-    const HalfTangent t = MakeHalfTangent(polygon[0], polygon[k - 1], polygon[k]);
+    const Vec3& a = polygon[0];
+    const Vec3& b = polygon[k - 1];
+    const Vec3& c = polygon[k];
+    const HalfTangent t =
+      MakeHalfTangent(a - from, b - from, c - from, Cross(b - a, c - a));
     if (t.Sum < NearLimit * t.Scale)
     {
-      return NearSolidAngle(polygon, count);
+      return NearSolidAngle(polygon, count, from);
     }
     sum += 2.0 * std::atan2(t.Triple, t.Sum);
   }

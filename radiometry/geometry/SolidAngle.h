@@ -18,4 +18,8 @@ double SolidAngle(const Vec3& a, const Vec3& b, const Vec3& c);
 /// The same for a flat convex polygon of `count` corners.
 double SolidAngle(const Vec3* polygon, std::size_t count);
 
+/// The same seen from `from`. Edges are taken from the corners as they are given: slivers and cells
+/// that graze a far point keep their digits, which corners shifted to it would have lost.
+double SolidAngle(const Vec3* polygon, std::size_t count, const Vec3& from);
+
 } // namespace radiometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/BeamIrradiance.h"
 
+#include "radiometry/geometry/Horizon.h"
 #include "radiometry/irradiance/ShadowCutter.h"
 
 #include <algorithm>
@@ -81,6 +82,16 @@ double Extent(const Scene& scene)
   return extent;
 }
 
+/// True when rounding hides on which side of a point's plane the light is.
+bool InPlane(const SourceFlux& source, const SurfacePoint& p, double extent)
+{
+  const Light& light = source.GetLight();
+  const double height = source.Directional() ? -Dot(p.Normal, light.Direction)
+                                             : Dot(p.Normal, light.Position - p.Point);
+  const double reach = source.Directional() ? 1.0 : Length(light.Position - p.Point) + extent;
+  return height <= 4.0 * Epsilon * reach;
+}
+
 } // namespace
 
 void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
@@ -143,8 +154,19 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
     for (std::size_t k = 0; k < lights.Size(); ++k)
     {
       double quadrature = 0.0;
-      const double flux =
-        lights.Sources[k]->OnPolygon(patch.Corners.data(), 3, normal, quadrature);
+      const SourceFlux& source = *lights.Sources[k];
+      const double flux = source.OnPolygon(patch.Corners.data(), 3, normal, quadrature);
+      const PlaneSide side = source.Directional()
+        ? FindSide(patch.Corners, Dot(normal, source.GetLight().Direction), extent)
+        : FindSide(patch.Corners, normal, source.GetLight().Position, extent);
+      for (int b = 0; b < bands && side == PlaneSide::Unknown; ++b)
+      {
+        error[b] += source.GetLight().Intensity[b] * (flux / area); // nothing, or that much
+      }
+      if (side != PlaneSide::Known)
+      {
+        continue;
+      }
       if (flux > 0.0)
       {
         shares.push_back({ k, flux, quadrature });
@@ -190,7 +212,7 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
         flux = lights.Cutters[share.Light]->Flux(patch, normal, share.Flux,
           lights.Lines ? lights.Lines->Crossings(patch.Triangle) : none, allowed, work);
       }
-      flux.Error += share.Quadrature;
+      flux.Error += share.Quadrature * (flux.Value / share.Flux);
       rays += flux.Rays;
       lit += flux.Value * magnitude;
       open[i] |= flux.Exact || flux.Error <= allowed ? 0 : 1;
@@ -249,6 +271,7 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
   {
     return;
   }
+  const double extent = Extent(scene);
   std::atomic<std::int64_t> rays{ 0 };
   std::vector<double> unshadowed(points.size(), 0.0);
   ParallelFor(
@@ -265,7 +288,7 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
       {
         const Light& light = lights.Sources[k]->GetLight();
         const double e = lights.Sources[k]->AtPoint(p.Point, p.Normal);
-        if (!(e > 0.0))
+        if (!(e > 0.0) || InPlane(*lights.Sources[k], p, extent))
         {
           continue;
         }

@@ -5,6 +5,8 @@
 #include "radiometry/geometry/SolidAngle.h"
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace radiometry
 {
@@ -13,9 +15,16 @@ namespace
 
 AxialDistribution MakeDistribution(const Light& light, bool spotShape)
 {
-  return light.Type == LightType::Spot && spotShape
-    ? AxialDistribution(light.Exponent, light.CosCutoff, light.SmoothEdge, light.CosInnerCutoff)
-    : AxialDistribution(0.0, -1.0);
+  if (light.Type != LightType::Spot || !spotShape)
+  {
+    return AxialDistribution(0.0, -1.0);
+  }
+  const auto versine = [](double exact, double cosine) {
+    return exact >= 0.0 ? exact : 1.0 - cosine;
+  };
+  return AxialDistribution::FromVersines(light.Exponent,
+    versine(light.VersineCutoff, light.CosCutoff), light.SmoothEdge,
+    versine(light.VersineInnerCutoff, light.CosInnerCutoff));
 }
 
 } // namespace
@@ -63,7 +72,7 @@ double SourceFlux::AtPoint(const Vec3& point, const Vec3& normal) const
 double SourceFlux::Intensity(const Vec3& p, double r) const
 {
   return this->Web ? this->Web->Intensity(p)
-                   : this->Distribution.Intensity(Dot(p, this->Source.Direction) / r);
+                   : this->Distribution.IntensityAt(Versine(p / r, this->Source.Direction));
 }
 
 double SourceFlux::OnPolygon(
@@ -83,26 +92,39 @@ double SourceFlux::OnPolygon(
     return std::fmax(0.0, -0.5 * Dot(area2, this->Source.Direction));
   }
 
-  constexpr std::size_t most = 32;
-  Vec3 local[most];
-  const std::size_t n = count < most ? count : most;
-  for (std::size_t k = 0; k < n; ++k)
-  {
-    local[k] = polygon[k] - this->Source.Position;
-  }
   if (!this->Legacy && this->Web)
   {
-    return std::fmax(0.0, this->Web->OnPolygon(local, n, error));
+    std::vector<Vec3> local(count);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      local[k] = polygon[k] - this->Source.Position;
+    }
+    return std::fmax(0.0, this->Web->OnPolygon(local.data(), count, error));
   }
   if (!this->Legacy)
   {
-    return std::fmax(0.0, AxialFlux(local, n, this->Source.Direction, this->Distribution));
+    double rounding = 0.0;
+    const double flux = std::fmax(0.0,
+      AxialFlux(polygon, count, this->Source.Direction, this->Distribution, this->Source.Position,
+        &rounding));
+    if (flux > 0.0 && !this->Distribution.Isotropic())
+    {
+      error += rounding;
+      // Directions are rounded by eps: of a cone of half-angle a, that is eps/a of the flux.
+      error += 4.0 * std::numeric_limits<double>::epsilon() * flux /
+        std::sqrt(this->Distribution.VersineLimit());
+    }
+    return flux;
   }
+
   double sum = 0.0;
-  for (std::size_t k = 2; k < n; ++k)
+  const Vec3 first = polygon[0] - this->Source.Position;
+  for (std::size_t k = 2; k < count; ++k)
   {
-    const double whole = this->Weighted(local[0], local[k - 1], local[k]);
-    sum += this->Attenuated(local[0], local[k - 1], local[k], whole, 0, 1e-9, error);
+    const Vec3 second = polygon[k - 1] - this->Source.Position;
+    const Vec3 third = polygon[k] - this->Source.Position;
+    const double whole = this->Weighted(first, second, third);
+    sum += this->Attenuated(first, second, third, whole, 0, 1e-9, error);
   }
   return sum;
 }

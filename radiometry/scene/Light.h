@@ -34,6 +34,9 @@ struct Light
                                        // W/m^2 normal to the beam, exitance W/m^2, or W/(m^2 sr)
   double CosCutoff = -1.0;             // cosine of the cone's half-angle; -1: no cone (180 degrees)
   double CosInnerCutoff = -1.0;        // with SmoothEdge: full intensity inside this cosine
+  /// 1 - cos of the two angles with all the digits of a narrow beam; below 0: from the cosines.
+  double VersineCutoff = -1.0;
+  double VersineInnerCutoff = -1.0;
   bool SmoothEdge = false;             // glTF's inner/outer cone: ((cos - outer)/(inner - outer))^2
   double Exponent = 0.0;               // I(phi) = I0 cos^e(phi)
   double Attenuation[3] = { 0.0, 0.0, 1.0 }; // 1/(a + b r + c r^2)

@@ -194,6 +194,13 @@ Light ToLight(
   if (record.Type == LightType::Spot && record.SpotCutoff < 180.0)
   {
     light.CosCutoff = record.SpotCutoff == 90.0 ? 0.0 : std::cos(units::Radians(record.SpotCutoff));
+    const auto versine = [](double degrees) {
+      const double s = std::sin(0.5 * units::Radians(degrees));
+      return 2.0 * s * s;
+    };
+    light.VersineCutoff = record.SpotCutoff == 90.0 ? 1.0 : versine(record.SpotCutoff);
+    light.VersineInnerCutoff =
+      record.SpotInnerCutoff >= 0.0 ? versine(record.SpotInnerCutoff) : light.VersineCutoff;
     light.Exponent = record.SpotExponent;
     light.SmoothEdge = record.SpotInnerCutoff >= 0.0;
     light.CosInnerCutoff =

@@ -13,6 +13,8 @@ namespace
 
 // An end closer than this to a triangle's plane lies on it: rounding of coordinates in [-1, 1].
 constexpr double OnPlane = 1e-14;
+// A ray closer than this to a triangle's rim meets it: the same rounding.
+constexpr double OnRim = 1e-14;
 // How far outside a triangle, relative to its edge functions, a hit near an end may be before
 // single precision cannot have meant one of its neighbours.
 constexpr double NeighbourMargin = 4e-6;
@@ -32,7 +34,7 @@ EdgeFunctions FindEdgeFunctions(const RayQuery& ray, const Triangle3& triangle)
     {
       std::swap(a, b);
     }
-    const double volume = Dot(ray.Direction, Cross(a - ray.Start, b - ray.Start));
+    const double volume = Dot(ray.Direction, Cross(a - ray.Start, b - a));
     longest = std::max(longest, Length(b - a));
     volumes[k] = swap ? -volume : volume;
   }
@@ -69,8 +71,9 @@ Verdict Judge(const RayQuery& ray, std::int32_t t, bool strict, double& distance
   {
     return Verdict::Hit;
   }
+  // What rounding cannot tell from the rim meets it: closed bodies have no cracks.
   const EdgeFunctions f = FindEdgeFunctions(ray, v);
-  if (f.Least >= 0.0 || f.Most <= 0.0)
+  if (f.Least >= -OnRim * f.Scale || f.Most <= OnRim * f.Scale)
   {
     return Verdict::Hit;
   }

@@ -54,10 +54,21 @@ void Filter(const RTCFilterFunctionNArguments* args)
     if (verdict != Verdict::Hit)
     {
       args->valid[i] = 0;
-      query.Ambiguous = query.Ambiguous || verdict == Verdict::RimMiss;
+      // Far from both ends single precision meets what double does not only where the ray runs
+      // along a surface: its neighbours may then have been missed. (A pane is passed on purpose.)
+      const bool pane = query.Passed && (*query.Passed)[t] != 0;
+      query.Ambiguous =
+        query.Ambiguous || verdict == Verdict::RimMiss || (!nearEnd && !pane);
     }
   }
 }
+
+/// Rays that leave a surface at less than this sine are decided in double: where hits are no longer
+/// judged one by one (EndMargin away) they would be within rounding of their own plane.
+constexpr double GrazingSine = 1e-7 / EndMargin;
+
+/// How far from its triangle's rim towards the middle a sensor on the rim looks out.
+constexpr double RimNudge = 1e-6;
 
 /// True when `p` is within `distance` of the box.
 bool Near(const Box3& box, const Vec3& p, double distance)
@@ -191,6 +202,12 @@ struct OcclusionScene::Internals
     return false;
   }
 
+  /// True when single precision cannot keep the ray on its side of the triangle's plane.
+  bool Grazes(const Vec3& direction, std::int32_t t) const
+  {
+    return std::fabs(Dot(direction, this->Normals[t])) < GrazingSine;
+  }
+
   RayQuery MakeQuery(const RayEnd& from, const Vec3& direction) const
   {
     RayQuery q;
@@ -200,7 +217,9 @@ struct OcclusionScene::Internals
     q.FromTriangle = from.Triangle;
     q.Triangles = &this->Triangles;
     q.Normals = &this->Normals;
-    q.Exact = from.Close || (from.Triangle >= 0 && this->NearRim(q.Start, from.Triangle));
+    q.Exact = from.Close ||
+      (from.Triangle >= 0 &&
+        (this->NearRim(q.Start, from.Triangle) || this->Grazes(q.Direction, from.Triangle)));
     return q;
   }
 
@@ -210,7 +229,9 @@ struct OcclusionScene::Internals
     q.Length = this->Scale * radiometry::Length(to.Point - from.Point);
     q.ToTriangle = to.Triangle;
     q.Exact = q.Exact || to.Close ||
-      (to.Triangle >= 0 && this->NearRim(this->ToBox(to.Point), to.Triangle));
+      (to.Triangle >= 0 &&
+        (this->NearRim(this->ToBox(to.Point), to.Triangle) ||
+          this->Grazes(q.Direction, to.Triangle)));
     return q;
   }
 
@@ -548,7 +569,13 @@ std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal, double ro
   {
     const Triangle3& v = this->Impl->Triangles[found];
     const Vec3& n = this->Impl->Normals[found];
-    point = point - (Dot(n, p - v[0]) / this->Impl->Scale) * n;
+    Vec3 moved = p - Dot(n, p - v[0]) * n;
+    if (this->Impl->NearRim(moved, found))
+    {
+      // On the rim it is on the neighbours too, walls among them: a little inside it is not.
+      moved = moved + RimNudge * (Centroid(v) - moved);
+    }
+    point = this->Impl->Center + moved / this->Impl->Scale;
   }
   return found;
 }

@@ -67,7 +67,7 @@ public:
   bool TooClose(const Vec3& point) const;
   /// The triangle that a free point lies on, within `rounding` (m, and at least 1e-12 of the scene's
   /// size), and whose plane is square to `normal` within 30 degrees; -1: none. `point` is then moved
-  /// onto its plane.
+  /// onto its plane, and from its rim a millionth of the way inside.
   std::int32_t Touching(Vec3& point, const Vec3& normal, double rounding) const;
   /// The first triangle along a ray.
   SurfaceHit Closest(const RayEnd& from, const Vec3& direction) const;

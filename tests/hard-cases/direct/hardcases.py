@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the hard cases of direct light share: meshes, lights of every kind as raw arrays, runs of the
+filter, and oracles that use nothing of the project."""
+import sys
+import traceback
+from math import pi
+
+import numpy as np
+from filters.checks import Errors, array, close, fails  # noqa: F401 (handed on to the tests)
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkradiometry import vtkIrradianceFilter
+
+CELLS, POINTS = 0, 1
+EPS = np.finfo(float).eps
+
+
+# --- meshes ------------------------------------------------------------------------------------
+
+def polydata(points, polygons=(), strips=(), verts=(), lines=()):
+    """Polydata in double precision."""
+    data = vtkPolyData()
+    p = vtkPoints()
+    p.SetDataTypeToDouble()
+    points = np.asarray(points, float).reshape(-1, 3)
+    p.SetData(numpy_to_vtk(points, deep=True))
+    data.SetPoints(p)
+    for cells, setter in ((verts, data.SetVerts), (lines, data.SetLines),
+                          (polygons, data.SetPolys), (strips, data.SetStrips)):
+        if len(cells):
+            made = vtkCellArray()
+            for cell in cells:
+                made.InsertNextCell(len(cell), [int(i) for i in cell])
+            setter(made)
+    return data
+
+
+def grid(origin, a, b, n=1, m=1):
+    """Points and quads of a parallelogram; its front is along a x b."""
+    o, a, b = (np.asarray(v, float) for v in (origin, a, b))
+    points = [o + (i / n) * a + (j / m) * b for j in range(m + 1) for i in range(n + 1)]
+    quads = [(j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i + 1, (j + 1) * (n + 1) + i)
+             for j in range(m) for i in range(n)]
+    return np.array(points), quads
+
+
+def box(low=(0, 0, 0), high=(1, 1, 1), n=1, inward=False, faces=range(6)):
+    """Points and quads of a box, n x n quads a face; faces -z, +z, -y, +y, -x, +x."""
+    lo, hi = np.asarray(low, float), np.asarray(high, float)
+    x, y, z = np.diag(hi - lo)
+    sides = [(lo, y, x), (lo + z, x, y), (lo, x, z), (lo + y, z, x), (lo, z, y), (lo + x, y, z)]
+    return joined(*[grid(sides[f][0], *(sides[f][1:][::-1] if inward else sides[f][1:]), n, n)
+                    for f in faces])
+
+
+def joined(*meshes):
+    """Several meshes (points, polygons) as one."""
+    points, polygons, first = [], [], 0
+    for p, q in meshes:
+        points.append(np.asarray(p, float))
+        polygons += [tuple(first + i for i in polygon) for polygon in q]
+        first += len(p)
+    return np.concatenate(points), polygons
+
+
+def mesh(*meshes):
+    return polydata(*joined(*meshes))
+
+
+def rotation(seed):
+    """A rotation that no axis survives; seed 0 is none."""
+    if seed == 0:
+        return np.eye(3)
+    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+def sensors(points, normals):
+    """A grid of sensors."""
+    points = np.asarray(points, float).reshape(-1, 3)
+    data = polydata(points, verts=[(i,) for i in range(len(points))])
+    return with_points(data, Normals=np.broadcast_to(np.asarray(normals, float), points.shape))
+
+
+def with_points(data, **arrays):
+    return _with(data.GetPointData(), data, arrays)
+
+
+def with_cells(data, **arrays):
+    return _with(data.GetCellData(), data, arrays)
+
+
+def _with(attributes, data, arrays):
+    for name, values in arrays.items():
+        a = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+        a.SetName(name)
+        attributes.AddArray(a)
+    return data
+
+
+# --- lights ------------------------------------------------------------------------------------
+
+class Light:
+    """One light as the arrays of docs/arrays.md say it, that can be turned, scaled and moved."""
+
+    def __init__(self, kind, position=(0, 0, 0), intensity=1.0, **arrays):
+        self.kind = kind
+        self.position = np.atleast_2d(np.asarray(position, float))  # area lights: corners
+        self.intensity = np.atleast_1d(np.asarray(intensity, float))
+        self.arrays = arrays
+
+    def moved(self, turn=np.eye(3), scale=1.0, shift=(0, 0, 0)):
+        arrays = dict(self.arrays)
+        for name in ("Direction", "ReferenceDirection", "SunDirection"):
+            if name in arrays:
+                arrays[name] = turn @ np.asarray(arrays[name], float)
+        return Light(self.kind, scale * self.position @ turn.T + np.asarray(shift, float),
+                     self.intensity, **arrays)
+
+    def times(self, factor):
+        return Light(self.kind, self.position, factor * self.intensity, **self.arrays)
+
+
+def point(position, intensity=1.0, **arrays):
+    return Light(0, position, intensity, **arrays)
+
+
+def spot(position, direction, cutoff=45.0, exponent=0.0, intensity=1.0, **arrays):
+    return Light(1, position, intensity, Direction=np.asarray(direction, float),
+                 SpotCutoff=float(cutoff), SpotExponent=float(exponent), **arrays)
+
+
+def sun(direction, irradiance=1.0, **arrays):
+    return Light(2, (0, 0, 0), irradiance, Direction=np.asarray(direction, float), **arrays)
+
+
+DEFAULTS = {"Direction": (0.0, 0.0, -1.0), "SpotCutoff": 180.0, "SpotExponent": 0.0,
+            "SpotInnerCutoff": -1.0, "Attenuation": (0.0, 0.0, 1.0), "LightEnabled": 1,
+            "AttachedTo": 0, "PhotometricWeb": -1, "LightTwoSided": 0,
+            "ReferenceDirection": (1.0, 0.0, 0.0), "SkyModel": 0,
+            "SkyCoefficients": (0.0, 0.0, 0.0, 0.0, 0.0), "SunDirection": (0.0, 0.0, 1.0),
+            "EnvironmentMap": -1}
+INTEGERS = ("LightEnabled", "AttachedTo", "PhotometricWeb", "LightTwoSided", "SkyModel",
+            "EnvironmentMap")
+
+
+def light_data(*lights, field=None):
+    """Lights as one polydata."""
+    points = np.concatenate([x.position for x in lights]) if lights else np.zeros((0, 3))
+    verts, polygons, first = [], [], 0
+    for x in lights:
+        n = len(x.position)
+        ids = tuple(range(first, first + n))
+        (polygons if x.kind == 3 else verts).append(ids)
+        first += n
+    data = polydata(points, polygons, verts=verts)
+    if not lights:
+        return data
+
+    def column(value_of):
+        return np.array([value_of(x) for x in lights for _ in x.position])
+
+    bands = max(len(x.intensity) for x in lights)
+    arrays = {"LightType": column(lambda x: x.kind).astype(np.int32),
+              "Intensity": column(lambda x: np.broadcast_to(x.intensity, bands))}
+    for name in {n for x in lights for n in x.arrays}:
+        values = column(lambda x: np.asarray(x.arrays.get(name, DEFAULTS[name]), float))
+        arrays[name] = values.astype(np.int32) if name in INTEGERS else values
+    with_points(data, **arrays)
+    if field:
+        _with(data.GetFieldData(), data, field)
+    return data
+
+
+# --- runs --------------------------------------------------------------------------------------
+
+class Run:
+    """Irradiance and error of one run, values x bands; front, or back."""
+
+    def __init__(self, surface, lights, occluders=(), back=False, **properties):
+        f = vtkIrradianceFilter()
+        f.SetInputData(surface)
+        lights = [lights] if isinstance(lights, (Light, vtkPolyData)) else list(lights)
+        if lights and isinstance(lights[0], Light):
+            lights = [light_data(*lights)]
+        for data in lights:
+            f.AddLightsData(data)
+        for data in occluders if isinstance(occluders, (list, tuple)) else [occluders]:
+            f.AddOccludersData(data)
+        for name, value in properties.items():
+            getattr(f, "Set" + name)(value)
+        self.filter = f
+        self.errors = Errors(f)
+        f.Update()
+        assert not self.errors.messages, self.errors.messages
+        self.output = f.GetOutputDataObject(0)
+        if self.output.IsA("vtkPolyData"):
+            self.e, self.error = self.values(self.output, back)
+
+    @staticmethod
+    def values(data, back=False):
+        name = "IrradianceBack" if back else "Irradiance"
+        attributes = data.GetPointData() if data.GetPointData().HasArray(name) else data.GetCellData()
+        e, error = array(attributes, name), array(attributes, name + "Error")
+        e, error = e.reshape(len(e), -1), error.reshape(len(error), -1)
+        assert np.isfinite(e).all() and (e >= 0).all(), e[~(np.isfinite(e) & (e >= 0))]
+        assert np.isfinite(error).all() and (error >= 0).all(), error
+        return e, error
+
+    def bytes(self):
+        return self.e.tobytes() + self.error.tobytes()
+
+
+def cell(surface, lights, **properties):
+    """The one value of a one-cell surface."""
+    e = Run(surface, lights, **properties).e
+    assert e.shape == (1, 1), e.shape
+    return e[0, 0]
+
+
+# --- oracles -----------------------------------------------------------------------------------
+
+def triangles_of(points, polygons):
+    """Corners (n, 3, 3) of fans; for convex polygons."""
+    points = np.asarray(points, float)
+    return np.array([[points[q[0]], points[q[k - 1]], points[q[k]]]
+                     for q in polygons for k in range(2, len(q))])
+
+
+def areas_of(points, polygons):
+    """Areas of flat polygons, concave ones too: the length of the vector area."""
+    points = np.asarray(points, float)
+    return np.array([np.linalg.norm(vector_area(points[list(q)])) for q in polygons])
+
+
+def vector_area(loop):
+    loop = np.asarray(loop, float)
+    a = loop - loop[0]
+    return 0.5 * np.cross(a, np.roll(a, -1, axis=0)).sum(axis=0)
+
+
+def solid_angle(loop, at):
+    """Signed solid angle of any closed loop (positive seen from its front), in extended precision:
+    Van Oosterom and Strackee 1983 over a fan, as a sum of complex arguments that may wind."""
+    r = np.asarray(loop, np.longdouble) - np.asarray(at, np.longdouble)
+    length = np.sqrt((r * r).sum(axis=1))
+    total = np.longdouble(0)
+    for k in range(2, len(r)):
+        a, b, c = r[0], r[k - 1], r[k]
+        la, lb, lc = length[0], length[k - 1], length[k]
+        n = np.array([(b - a)[1] * (c - a)[2] - (b - a)[2] * (c - a)[1],
+                      (b - a)[2] * (c - a)[0] - (b - a)[0] * (c - a)[2],
+                      (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]])
+        triple = -(a * n).sum()
+        total += 2 * np.arctan2(triple, la * lb * lc + (a * b).sum() * lc + (b * c).sum() * la +
+                                (c * a).sum() * lb)
+    return float(total)
+
+
+def square_above(h, half=1.0):
+    """Solid angle of a square of half side `half` from h above its centre."""
+    return 4.0 * np.arctan2(half * half, h * np.sqrt(2.0 * half * half + h * h))
+
+
+def corner_above(h, a, b):
+    """Solid angle of an a x b rectangle from h above one of its corners; exact for any h > 0."""
+    return np.arctan2(a * b, h * np.sqrt(a * a + b * b + h * h))
+
+
+def hidden(points, toward, triangles, skip=None):
+    """Whether the open segments from `points` to `toward` (a place; or with shape (n, 3) places)
+    cross any triangle: Moeller and Trumbore's test in double, everything against everything.
+    `skip`: index of the triangle that each point lies on."""
+    d = np.broadcast_to(toward, points.shape) - points
+    blocked = np.zeros(len(points), bool)
+    for t, (a, b, c) in enumerate(triangles):
+        e1, e2 = b - a, c - a
+        p = np.cross(d, e2)
+        det = p @ e1
+        s = points - a
+        with np.errstate(divide="ignore", invalid="ignore"):
+            u = np.einsum("ij,ij->i", s, p) / det
+            q = np.cross(s, e1)
+            v = np.einsum("ij,ij->i", d, q) / det
+            w = (q @ e2) / det
+            hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (w > 0) & (w < 1) & (det != 0)
+        if skip is not None:
+            hit &= skip != t
+        blocked |= hit
+    return blocked
+
+
+def run_all(namespace):
+    """Runs every test_* function, all of them, and tells which failed."""
+    failed, done = [], 0
+    for name, function in list(namespace.items()):
+        if name.startswith("test_") and callable(function):
+            done += 1
+            try:
+                function()
+                print("passed", name, flush=True)
+            except Exception:  # the next case is another matter
+                traceback.print_exc()
+                failed.append(name)
+                print("FAILED", name, flush=True)
+    assert done, "no tests"
+    if failed:
+        print(f"{len(failed)} of {done} failed:", *failed)
+    sys.exit(1 if failed else 0)
