@@ -2,6 +2,7 @@
 #include "SceneAdapter.h"
 
 #include "LightPolyData.h"
+#include "radiometry/geometry/PolygonTriangles.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/SceneBuilder.h"
@@ -15,11 +16,9 @@
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkGeometryFilter.h"
-#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkPolygon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,8 +75,8 @@ struct Triangulation
   std::vector<std::int32_t> Cell; // of the whole surface
 };
 
-void AddPolygon(vtkPolyData* data, const vtkIdType* ids, vtkIdType count, std::int32_t cell,
-  Triangulation& out)
+/// Cells without area, or that cross themselves, give nothing: counted, they get 0.
+void AddPolygon(const vtkIdType* ids, vtkIdType count, std::int32_t cell, Triangulation& out)
 {
   const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c) {
     out.Triangles.push_back({ static_cast<std::int32_t>(ids[a]), static_cast<std::int32_t>(ids[b]),
@@ -89,20 +88,14 @@ void AddPolygon(vtkPolyData* data, const vtkIdType* ids, vtkIdType count, std::i
     add(0, 1, 2);
     return;
   }
-  if (count < 3)
+  std::vector<Vec3> corners;
+  for (vtkIdType k = 0; k < count; ++k)
   {
-    return;
+    corners.push_back(out.Points[ids[k]]);
   }
-  vtkNew<vtkPolygon> polygon;
-  polygon->Initialize(static_cast<int>(count), ids, data->GetPoints());
-  vtkNew<vtkIdList> corners;
-  if (!polygon->NonDegenerateTriangulate(corners) && !polygon->EarCutTriangulation(corners))
+  for (const auto& t : radiometry::PolygonTriangles(corners))
   {
-    return; // without area, or crossing itself: counted, gets 0
-  }
-  for (vtkIdType k = 0; k + 2 < corners->GetNumberOfIds(); k += 3)
-  {
-    add(corners->GetId(k), corners->GetId(k + 1), corners->GetId(k + 2));
+    add(t[0], t[1], t[2]);
   }
 }
 
@@ -153,7 +146,7 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
           !std::isfinite(p.x) ? p.x : (!std::isfinite(p.y) ? p.y : p.z), "finite coordinates");
       }
     }
-    AddPolygon(data, ids, n, static_cast<std::int32_t>(cell), out);
+    AddPolygon(ids, n, static_cast<std::int32_t>(cell), out);
   }
   const auto strips = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
   for (strips->GoToFirstCell(); !strips->IsDoneWithTraversal(); strips->GoToNextCell(), ++cell)
@@ -167,7 +160,7 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
       const vtkIdType a = k % 2 == 0 ? ids[k] : ids[k + 1];
       const vtkIdType b = k % 2 == 0 ? ids[k + 1] : ids[k];
       const vtkIdType triangle[3] = { a, b, ids[k + 2] };
-      AddPolygon(data, triangle, 3, static_cast<std::int32_t>(cell), out);
+      AddPolygon(triangle, 3, static_cast<std::int32_t>(cell), out);
     }
   }
   return out;
