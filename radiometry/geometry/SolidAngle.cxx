@@ -95,11 +95,13 @@ double SolidAngle(const Vec3* polygon, std::size_t count, const Vec3& from)
     const Vec3& c = polygon[k];
     const HalfTangent t =
       MakeHalfTangent(a - from, b - from, c - from, Cross(b - a, c - a));
-    if (t.Sum < NearLimit * t.Scale)
+    const double half = std::atan2(t.Triple, t.Sum);
+    // Both lose digits there: this form of its denominator's, the other of pi's (a sliver).
+    if (t.Sum < NearLimit * t.Scale && std::fabs(half) * t.Scale > std::hypot(t.Sum, t.Triple))
     {
       return NearSolidAngle(polygon, count, from);
     }
-    sum += 2.0 * std::atan2(t.Triple, t.Sum);
+    sum += 2.0 * half;
   }
   return sum;
 }

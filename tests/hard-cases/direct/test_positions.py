@@ -154,7 +154,7 @@ def test_grazing_point_light_against_extended_precision():
                 if h / x > 1e-14:
                     close(run.e[0, 0], exact, 1e-10)
                 else:  # not to be told from the plane, to eps of what would fall in squarely
-                    assert abs(run.e[0, 0] - exact) <= 4 * EPS / x**2, run.e
+                    assert abs(run.e[0, 0] - exact) <= 8 * EPS / x**2, run.e
 
 
 def test_grazing_shadow_of_a_low_wall():
@@ -178,6 +178,7 @@ def test_cell_a_million_times_larger_than_its_distance():
 
 
 def test_sliver_triangles_of_aspect_a_million():
+    x, w = np.polynomial.legendre.leggauss(80)
     for width in (1e-6, 1e-9):
         for seed in (0, 2):
             turn = rotation(seed)
@@ -187,13 +188,23 @@ def test_sliver_triangles_of_aspect_a_million():
                 for light in both_kinds(place):
                     moved = light.moved(turn)
                     exact = solid_angle(p @ turn.T, moved.position[0])
-                    # A normal of turned coordinates is good to eps/width, and the integral along
-                    # the rim for a spot to eps over the angle that the sliver is seen under.
+                    # A normal of turned coordinates is good to eps/width.
                     tilt = 0 if seed == 0 else 4 * EPS / width * np.hypot(*place[:2]) / place[2]
-                    rim = 0 if light.kind == 0 else 4 * EPS / width
-                    run = Run(data, moved)
-                    close(run.e[0, 0], exact / (0.5 * width), 1e-11 + tilt + rim)
-                    assert abs(run.e[0, 0] - exact / (0.5 * width)) <= run.error[0, 0] + 1e-12
+                    close(cell(data, moved), exact / (0.5 * width), 1e-10 + tilt)  # the oracle: eps/width of 80 bits
+                # Where the intensity varies over it, what the rim integral loses is in its error.
+                axis = np.array((0.45, 0, 0)) - place
+                run = Run(data, spot(place, axis, 90.0, 2.0).moved(turn))
+                mean = 0.0
+                for a, b in ((0, 0.28), (0.28, 0.3), (0.3, 0.32), (0.32, 0.4), (0.4, 1)):
+                    s = a + (b - a) * 0.5 * (x + 1)
+                    local = np.where(s < 0.4, s / 0.4, (1 - s) / 0.6)
+                    to = np.stack([s, 0.5 * local * width, 0 * s], axis=1) - place
+                    r = np.linalg.norm(to, axis=1)
+                    cosine = to @ (axis / np.linalg.norm(axis)) / r
+                    mean += (w * 2 * local * cosine**2 * (cosine > 0) * place[2] / r**3).sum() \
+                        * 0.5 * (b - a)
+                known = 1e-4 if place[2] < 0.01 else 1e-6  # of this rule
+                assert abs(run.e[0, 0] - mean) <= run.error[0, 0] + known * mean, (place, run.e, mean)
             tilt = (0.3, 0.2, -0.9)
             close(cell(data, sun(tilt, 2.0).moved(turn)), 2 * 0.9 / sqrt(0.94), 1e-12 + 8 * EPS / width)
 
