@@ -302,7 +302,7 @@ void AddBeamCases(std::vector<CalibrationCase>& cases)
   static const Blocking open{ "none", 0, 0.0, 2, 1e-11 };
   static const Blocking few{ "12 triangles", 12, 0.5, 3, 1e-9 };
   static const Blocking many{ "400 triangles", 400, 0.12, 3, 1e-6 };
-  static const Blocking dense{ "6000 triangles", 6000, 0.04, 3, 1e-5 };
+  static const Blocking dense{ "3000 triangles", 3000, 0.05, 3, 1e-5 };
   for (const Kind& kind : Kinds())
   {
     for (const Blocking& b : { open, few, many, dense })
