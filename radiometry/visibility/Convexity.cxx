@@ -9,7 +9,7 @@ namespace radiometry
 
 Convexity FindConvexity(const Scene& scene)
 {
-  constexpr double most = 1e9;
+  constexpr double most = 1e8; // pairs of a plane and a point, about 0.1 s
   if (scene.Triangles.empty() ||
     static_cast<double>(scene.Triangles.size()) * static_cast<double>(scene.Points.size()) > most)
   {
@@ -23,10 +23,22 @@ Convexity FindConvexity(const Scene& scene)
   const double rounding = 1e-12 * extent;
   bool body = true;
   bool room = true;
+  Vec3 normal; // of the plane looked at last, and a point of it
+  Vec3 origin;
+  const auto onLastPlane = [&](const Triangle3& corners) {
+    return std::all_of(corners.begin(), corners.end(),
+      [&](const Vec3& p) { return std::fabs(Dot(normal, p - origin)) <= rounding; });
+  };
   for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
   {
     const Triangle3 corners = scene.TriangleAt(t);
     const Vec3 n = Normalized(AreaNormal2(corners));
+    if (Dot(n, normal) > 0.0 && onLastPlane(corners))
+    {
+      continue; // a floor of many triangles is one plane
+    }
+    normal = n;
+    origin = corners[0];
     bool before = false;
     bool behind = false;
     for (const Vec3& p : scene.Points)
