@@ -2,7 +2,6 @@
 #include "io/PhotometricText.h"
 
 #include <algorithm>
-#include <clocale>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -103,11 +102,11 @@ PhotometricText::PhotometricText(const std::string& fileName)
   std::ifstream in(fileName, std::ios::binary);
   std::ostringstream buffer;
   buffer << in.rdbuf();
-  if (!in)
-  {
-    throw FileError(fileName, "cannot be read, or is empty");
-  }
   std::string bytes = buffer.str();
+  if (!in || bytes.empty())
+  {
+    throw FileError(fileName, in ? "is empty" : "cannot be read");
+  }
   if (bytes.compare(0, 3, "\xEF\xBB\xBF") == 0)
   {
     bytes.erase(0, 3);
