@@ -91,3 +91,11 @@ def write(path, gltf=None):
     with open(path, "w", encoding="utf-8") as stream:
         json.dump(gltf or document(), stream)
     return path
+
+
+def write_luminaire(path):
+    """An IES file of a round downlight of 100 cd; returns its name."""
+    with open(path, "w") as stream:
+        stream.write("IESNA:LM-63-2002\n[LUMINAIRE] Downlight\nTILT=NONE\n"
+                     "1 -1 1 4 1 1 2 -0.1 -0.1 0\n1 1 10\n0 30 60 90\n0\n100 90 40 0\n")
+    return path

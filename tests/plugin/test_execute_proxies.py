@@ -88,6 +88,7 @@ def check(condition, words):
 with tempfile.TemporaryDirectory() as folder:
     simple.LoadDistributedPlugin("Radiometry", ns=globals())
     gltf = tiny_scene.write(os.path.join(folder, "tiny.gltf"))
+    ies = tiny_scene.write_luminaire(os.path.join(folder, "tiny.ies"))
     plane = simple.Plane(XResolution=6, YResolution=6)
     simple.UpdatePipeline()
     view = simple.CreateView("RenderView")
@@ -111,6 +112,8 @@ with tempfile.TemporaryDirectory() as folder:
             check(proxy is not None, f"{label} cannot be created")
             if element.get("class") == "vtkOpenEXRReader":
                 proxy.FileName = files[".exr"]
+            elif element.get("class") == "vtkPhotometricFileReader":
+                proxy.FileName = ies
             elif proxy.GetProperty("FileName") is not None:
                 proxy.FileName = gltf
             for prop in input_properties(element, known):
