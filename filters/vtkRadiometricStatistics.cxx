@@ -210,7 +210,7 @@ void vtkRadiometricStatistics::Describe(vtkDataObject* input, vtkInformationVect
   }
   table.Write(arrays, vtkTable::GetData(out, 0));
   lineArray = lineArray.empty() ? PreferredArray(arrays) : lineArray;
-  if (anyCells && !lineArray.empty())
+  if (this->GenerateIsolines && anyCells && !lineArray.empty())
   {
     IsoLines(lineArray, this->Isovalues, this->MetersPerUnit)
       .Write(blocks, pieces, vtkPolyData::GetData(out, 1), vtkTable::GetData(out, 2));
@@ -256,6 +256,7 @@ void vtkRadiometricStatistics::PrintSelf(ostream& os, vtkIndent indent)
   {
     os << indent << "Further threshold: " << threshold << "\n";
   }
+  os << indent << "GenerateIsolines: " << this->GenerateIsolines << "\n";
   os << indent << "IsolineArray: " << (this->IsolineArray ? this->IsolineArray : "(none)") << "\n";
   for (const double value : this->Isovalues)
   {

@@ -73,6 +73,13 @@ public:
   ///@}
 
   ///@{
+  /// Whether outputs 1 and 2 are filled. Default on.
+  vtkSetMacro(GenerateIsolines, bool);
+  vtkGetMacro(GenerateIsolines, bool);
+  vtkBooleanMacro(GenerateIsolines, bool);
+  ///@}
+
+  ///@{
   /// The array of the iso-lines. Default none: Illuminance where it is among the arrays, else
   /// Irradiance, else the first of them. Of several bands, all together (three: their luminance).
   vtkSetStringMacro(IsolineArray);
@@ -106,6 +113,7 @@ protected:
   char* GroupArray = nullptr;
   double Threshold = 0.0;
   std::vector<double> MoreThresholds;
+  bool GenerateIsolines = true;
   char* IsolineArray = nullptr;
   std::vector<double> Isovalues;
   double MetersPerUnit = 1.0;

@@ -64,13 +64,11 @@ def _run(options, progress):
 
     path = scenes.find(options.scene)
     scene = scenes.read(path, options, progress)
-    results = [run(vtkIrradianceFilter(), "Irradiance", scene.surface, scene.lights, options,
-                   progress)]
+    results = [run(vtkIrradianceFilter(), "Irradiance", scene, options, progress)]
     if options.radiosity:
         from .vtkRadiometryFilters import vtkRadiosityFilter
 
-        results.append(run(vtkRadiosityFilter(), "Radiosity", scene.surface, scene.lights, options,
-                           progress))
+        results.append(run(vtkRadiosityFilter(), "Radiosity", scene, options, progress))
     display.ensure()
     with OutputFolder(options.output) as output:
         progress.on_second_signal = output._clean

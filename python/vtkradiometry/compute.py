@@ -3,7 +3,7 @@
 import time
 
 from vtkmodules.vtkCommonCore import vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData, vtkTable
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .faults import InputFault, Listener
@@ -14,11 +14,13 @@ SAMPLES = {"cells": 0, "points": 1}
 
 
 class Result:
-    """What a simulating filter gave: surface, plan and convergence, and the time it took."""
+    """What a simulating filter gave: surface, measuring grid (or None), plan and convergence, and
+    the time it took."""
 
-    def __init__(self, name, surface, plan, convergence, seconds, warnings):
+    def __init__(self, name, surface, work_plane, plan, convergence, seconds, warnings):
         self.name = name
         self.surface = surface
+        self.work_plane = work_plane
         self.plan = plan
         self.convergence = convergence
         self.seconds = seconds
@@ -72,20 +74,27 @@ def configure(algorithm, options):
     _set(algorithm, "NumberOfThreads", options.threads)
     _set(algorithm, "SampleLocation", SAMPLES[options.samples])
     _set(algorithm, "Method", METHODS[options.method])
+    _set(algorithm, "ExposureTime", options.dose)
     if options.two_sided is not None:
         _set(algorithm, "TwoSided", bool(options.two_sided))
 
 
-def run(algorithm, name, surface, lights, options, progress):
-    """Runs `algorithm` on the surface and returns its Result.
+def run(algorithm, name, scene, options, progress):
+    """Runs `algorithm` on the scene's surface and measuring grid and returns its Result.
 
     Raises InputFault with the filter's own words if it refuses its input, and Stopped when the
     user stopped it.
     """
-    algorithm.SetInputDataObject(0, surface)
-    if lights is not None and lights.GetNumberOfPoints() > 0:
-        algorithm.AddInputDataObject(1, lights)
+    given = scene.surface
+    if scene.work_plane is not None:
+        given = vtkMultiBlockDataSet()
+        given.SetBlock(0, scene.surface)
+        given.SetBlock(1, scene.work_plane)
+    algorithm.SetInputDataObject(0, given)
+    scene.lights.connect(algorithm)
     configure(algorithm, options)
+    _set(algorithm, "Photometric", scene.work_plane is not None)
+    _set(algorithm, "LuminousEfficacy", scene.efficacy())
     with Listener() as listener:
         listener.observe(algorithm)
         listener.observe(algorithm.GetExecutive())
@@ -95,11 +104,24 @@ def run(algorithm, name, surface, lights, options, progress):
             seconds = time.monotonic() - begin
         listener.check(name.lower())
         warnings = list(dict.fromkeys(listener.warnings))
-    output = vtkPolyData()
-    output.ShallowCopy(algorithm.GetOutputDataObject(0))
-    if output.GetNumberOfCells() != surface.GetNumberOfCells():
+    surface, work_plane = _block(algorithm, 0), _block(algorithm, 1)
+    if surface is None or surface.GetNumberOfCells() != scene.surface.GetNumberOfCells():
         raise InputFault(f"{name.lower()}: no result, and the filter does not say why")
     plan, convergence = vtkTable(), vtkTable()
     plan.ShallowCopy(algorithm.GetOutputDataObject(1))
     convergence.ShallowCopy(algorithm.GetOutputDataObject(2))
-    return Result(name, output, plan, convergence, seconds, warnings)
+    return Result(name, surface, work_plane, plan, convergence, seconds, warnings)
+
+
+def _block(algorithm, index):
+    """A part of the first output, without its pipeline: 0 the surface, 1 the measuring grid."""
+    data = algorithm.GetOutputDataObject(0)
+    if isinstance(data, vtkMultiBlockDataSet):
+        data = data.GetBlock(index) if index < data.GetNumberOfBlocks() else None
+    elif index > 0:
+        data = None
+    if data is None:
+        return None
+    copy = vtkPolyData()
+    copy.ShallowCopy(data)
+    return copy

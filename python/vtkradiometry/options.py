@@ -6,6 +6,7 @@ Imports nothing but the standard library, so that ./run --help works before anyt
 """
 import argparse
 import math
+import re
 
 
 def _positive(text):
@@ -43,6 +44,61 @@ def _edge(text):
     return text if text == "auto" else _not_negative(text)
 
 
+def _vector(text):
+    parts = text.split(",")
+    try:
+        values = tuple(float(part) for part in parts)
+    except ValueError:
+        values = ()
+    if len(values) != 3 or not all(math.isfinite(v) for v in values):
+        raise argparse.ArgumentTypeError(f"{text} is not X,Y,Z")
+    return values
+
+
+def _sun(text):
+    try:
+        altitude, azimuth = (float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not ALTITUDE,AZIMUTH") from None
+    if not (0.0 < altitude <= 90.0 and -360.0 <= azimuth <= 360.0):
+        raise argparse.ArgumentTypeError(
+            f"{text}: the altitude must lie in (0, 90] degrees, the azimuth in [-360, 360]")
+    return altitude, azimuth
+
+
+def _height(text):
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"{text} is not a height in metres (a scene that follows needs --work-plane=0.8 or "
+            "must come first)") from None
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text} is not a height in metres")
+    return value
+
+
+class _Luminaire(argparse.Action):
+    """--luminaire FILE begins a luminaire; --at and --toward say where the one before them hangs
+    and what it looks at. More than one --at: as many copies."""
+
+    def __call__(self, parser, namespace, value, option=None):
+        found = list(getattr(namespace, "luminaires", None) or [])
+        namespace.luminaires = found
+        if option == "--luminaire":
+            found.append({"file": value, "at": [], "toward": []})
+            return
+        if not found:
+            parser.error(f"argument {option}: must follow --luminaire FILE")
+        if option == "--at":
+            found[-1]["at"].append(value)
+            found[-1]["toward"].append(None)
+            return
+        if not found[-1]["at"]:
+            parser.error("argument --toward: must follow --at X,Y,Z")
+        found[-1]["toward"][-1] = value
+
+
 def make_parser(program="./run"):
     """The command line as an argparse parser."""
     parser = argparse.ArgumentParser(
@@ -53,6 +109,8 @@ def make_parser(program="./run"):
         epilog="Exit status: 0 all is well; 2 something is wrong with the input, and nothing was "
         "written; 130 stopped by Ctrl-C, and nothing was written; 1 anything else.",
     )
+    # So that --at -1,2,3 is a place and not an option.
+    parser._negative_number_matcher = re.compile(r"^-[\d.][\d.,eE+-]*$")
     parser.add_argument("scene", nargs="?", metavar="SCENE",
                         help="a .gltf or .glb file (default: the bundled gallery)")
     parser.add_argument("--output", "-o", metavar="DIR", default="out",
@@ -97,6 +155,42 @@ def make_parser(program="./run"):
                          default=True,
                          help="count what glossy materials reflect as diffuse: right energy, no "
                          "highlights (default: yes)")
+
+    physics.add_argument("--dose", type=_not_negative, default=0.0, metavar="SECONDS",
+                         help="exposure time: also write the dose, irradiance times this time, in "
+                         "J/m2 (default: 0, none)")
+
+    added = parser.add_argument_group(
+        "lights beside the scene's own", "Coordinates are the scene's, in metres; in a glTF scene Y "
+        "is up and -Z is north.")
+    added.add_argument("--luminaire", action=_Luminaire, dest="luminaires", metavar="FILE",
+                       help="a luminaire with the intensity distribution of an .ies or .ldt file; "
+                       "again for further ones")
+    added.add_argument("--at", action=_Luminaire, dest="luminaires", type=_vector,
+                       metavar="X,Y,Z", help="where it hangs; again for further copies of it")
+    added.add_argument("--toward", action=_Luminaire, dest="luminaires", type=_vector,
+                       metavar="X,Y,Z", help="a point that the copy before looks at (default: down)")
+    added.add_argument("--sky", choices=["uniform", "overcast", "clear", "intermediate"],
+                       help="light from the sky, by the CIE's standard distributions; clear and "
+                       "intermediate ones need --sun")
+    added.add_argument("--sky-illuminance", type=_positive, default=10000.0, metavar="LUX",
+                       help="what the whole sky gives on open level ground (default: 10000)")
+    added.add_argument("--sun", type=_sun, metavar="ALTITUDE,AZIMUTH",
+                       help="where the sun is, degrees above the horizon and from north over east; "
+                       "under a clear or intermediate sky, or with no --sky, it shines")
+    added.add_argument("--sun-illuminance", type=_not_negative, default=None, metavar="LUX",
+                       help="of the sun on a surface that faces it (default: 80000 with a clear sky "
+                       "or none, 20000 with an intermediate one, 0 with others)")
+
+    plane = parser.add_argument_group("measuring grid")
+    plane.add_argument("--work-plane", type=_height, nargs="?", const=0.8, metavar="HEIGHT",
+                       help="measure on a level grid this high above the lowest point, spaced as EN "
+                       "12464-1 says: mean, U0 and Ud, a picture with iso-lux lines, a table "
+                       "(0.8 m if no number follows)")
+    plane.add_argument("--wall-zone", type=_not_negative, default=0.5, metavar="METRES",
+                       help="zone along the walls that is left out (default: 0.5)")
+    plane.add_argument("--grid-spacing", type=_positive, metavar="METRES",
+                       help="greatest distance of measuring points (default: as EN 12464-1 says)")
 
     picture = parser.add_argument_group("pictures")
     picture.add_argument("--size", type=_size, default=(1280, 720), metavar="WxH",

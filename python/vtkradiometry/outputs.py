@@ -7,8 +7,7 @@ import numpy as np
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from . import falsecolor, mesh, picture, plots, quantities, report, view_mesh
-from .compute import field_facts
+from . import falsecolor, mesh, picture, plots, quantities, report, view_mesh, workplane
 from .faults import Listener
 from .image_file import write_exr
 from .scales import Scale, format_number
@@ -102,7 +101,7 @@ class View:
             rest = self.smooth.to_points(
                 np.maximum(_seen(surface, "Irradiance", back) - direct, 0.0))
         self.irradiance = self._total(rest, scene, surface, options, progress)
-        if scene.lights.GetNumberOfPoints() > 0:  # shadows have edges
+        if scene.lights:  # shadows have edges
             self.mesh.sharpen(self.irradiance)
             self.irradiance = self._total(rest, scene, surface, options, progress)
         reflectance = mesh.cell_array(surface, "DiffuseReflectance")
@@ -119,11 +118,11 @@ class View:
         return direct if rest is None else direct + self.mesh.from_computed(rest)
 
     def _direct(self, scene, surface, options, progress):
-        if scene.lights.GetNumberOfPoints() == 0:
+        if not scene.lights:
             return np.zeros((len(self.mesh.xyz), 1))
         direct = vtkIrradianceFilter()
         direct.SetInputDataObject(0, self.mesh.receiver(surface))
-        direct.AddInputDataObject(1, scene.lights)
+        scene.lights.connect(direct)
         direct.SetRelativeTolerance(max(options.tolerance, 0.02))
         direct.SetNumberOfThreads(options.threads)
         with progress.filter(direct), Listener() as listener:
@@ -136,8 +135,8 @@ class View:
 
 
 def _false_colour(output, scene, view, surface, options, summary):
-    photometric = bool(np.any(field_facts(scene.lights).get("Photometric", 1)))
-    quantity, heading, unit = quantities.choose_quantity(options.quantity, photometric)
+    quantity, heading, unit = quantities.choose_quantity(options.quantity,
+                                                         scene.lights.photometric)
     shown = quantities.total(_seen(surface, "Irradiance", view.mesh.back), quantity,
                              scene.efficacy())
     scale = Scale.choose(shown, view.smooth.area, options.scale, options.range)
@@ -188,6 +187,19 @@ def _summary(surface, areas, scene):
     return {"mean": mean, "error": quantities.relative_error(irradiance, errors, areas)}
 
 
+def _work_plane(output, scene, result, options, progress):
+    """The measuring grid's picture and table; None where none was asked for."""
+    if result.work_plane is None:
+        return None
+    with progress.stage("Work plane"):
+        plane = workplane.WorkPlane(result.work_plane, scene.UP)
+        workplane.write_png(output.path("workplane.png", "illuminance on the work plane, with "
+                                        "iso-lux lines"), plane, scene, options)
+        workplane.write_csv(output.path("workplane.csv", "the same as a table, a row for each "
+                                        "measuring point"), plane)
+    return plane
+
+
 def write_all(output, scene, results, options, progress):
     """Writes every file; returns one sentence for the terminal."""
     surface = merge(results)
@@ -207,6 +219,7 @@ def write_all(output, scene, results, options, progress):
         plots.write_png(output.path("convergence.png", "estimated error against seconds"), tables,
                         options.tolerance, os.path.basename(scene.path), options.size)
         plots.write_csv(output.path("convergence.csv", "the same as a table"), tables)
+    plane = _work_plane(output, scene, results[-1], options, progress)
     with progress.stage("Statistics"), Listener() as listener:
         statistics = {}
         for name in ("Irradiance", "IrradianceBack", "Radiosity", "RadiosityBack"):
@@ -220,6 +233,8 @@ def write_all(output, scene, results, options, progress):
         f"({format_number(summary['mean']['irradiance'])} W/m2) over "
         f"{format_number(float(areas.sum()))} m2; estimated error "
         f"{quantities.format_percent(summary['error'])} of the mean.")
+    if plane is not None:
+        sentence += "\n" + plane.sentence()
     document = {
         "summary": sentence,
         "scene": {
@@ -228,7 +243,7 @@ def write_all(output, scene, results, options, progress):
             "cells in the file": scene.original_cells,
             "longest edge after refining in m": scene.max_edge or "not refined",
             "area in m2": float(areas.sum()),
-            "lights": scene.light_rows(),
+            "lights": scene.lights.rows(),
         },
         "assumptions": scene.assumptions,
         "computations": [
@@ -237,6 +252,8 @@ def write_all(output, scene, results, options, progress):
              "warnings": result.warnings}
             for result in results
         ],
+        "work_plane": plane and {"grid": plane.rule, "statistics": plane.rows(),
+                                 "levels": plane.levels},
         "statistics": statistics,
         "flux": flux,
         "pictures": pictures,

@@ -86,6 +86,7 @@ def statistics_rows(surface, name, efficacy, listener):
         if group is None and rows:
             continue
         statistics = vtkRadiometricStatistics()
+        statistics.GenerateIsolinesOff()
         listener.observe(statistics)
         statistics.SetInputDataObject(surface)
         statistics.SetArrayName(name)

@@ -89,7 +89,9 @@ def text_lines(report):
     """The report as lines of text, for people."""
     lines = [f"vtkRadiometry {report['versions'].get('vtkRadiometry', '')}: {report['scene']['file']}"]
     if report.get("summary"):
-        lines += ["", *textwrap.wrap(report["summary"], WIDTH)]
+        lines.append("")
+        for words in report["summary"].split("\n"):
+            lines += textwrap.wrap(words, WIDTH)
     lines += _title("Scene")
     lines += _pairs({key: value for key, value in report["scene"].items() if key != "lights"})
     if report["scene"].get("lights"):
@@ -106,6 +108,10 @@ def text_lines(report):
         lines += ["", "Estimated error against time:"] + table(computation["convergence"])
         for words in computation["warnings"]:
             lines += textwrap.wrap("warning: " + words, WIDTH, subsequent_indent="  ")
+    if report.get("work_plane"):
+        plane = report["work_plane"]
+        lines += _title("Work plane") + textwrap.wrap(plane["grid"], WIDTH) + [""]
+        lines += table(plane["statistics"]) + [""] + table(plane["levels"])
     for name, rows in report["statistics"].items():
         lines += _title(f"Statistics: {name}")
         lines += table(rows)

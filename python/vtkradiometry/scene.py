@@ -4,19 +4,18 @@ import os
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from . import mesh
+from . import added_lights, mesh, workplane
 from .camera import Camera
-from .compute import field_facts
 from .faults import InputFault, Listener
+from .lights import Lights
 from .vtkRadiometryFilters import vtkRadiometricSceneReader
 
 LIGHT_UNITS = {"auto": 0, "photometric": 1, "radiometric": 2}
 EMISSIVE_UNITS = {"auto": 0, "luminance": 1, "radiance": 2, "exitance": 3}
-LIGHT_KINDS = {0: "point", 1: "spot", 2: "directional", 3: "area", 4: "environment"}
-EXAMPLES = ("gallery", "cornell-box")
+EXAMPLES = ("gallery", "cornell-box", "office")
 
 
 def find(name):
@@ -39,13 +38,16 @@ def find(name):
 class Scene:
     """What was read. `surface` is what is computed on; `original_cells` counts the file's own."""
 
-    def __init__(self, path, surface, lights, camera, assumptions, names):
+    UP = (0.0, 1.0, 0.0)  # of glTF
+    NORTH = (0.0, 0.0, -1.0)
+
+    def __init__(self, path, surface, lights, camera, assumptions):
         self.path = path
         self.surface = surface
         self.lights = lights
+        self.work_plane = None  # the measuring grid
         self.camera = camera
         self.assumptions = assumptions
-        self.light_names = names
         self.original_cells = surface.GetNumberOfCells()
         self.max_edge = 0.0
 
@@ -64,9 +66,7 @@ class Scene:
 
     def efficacy(self):
         """lm/W by which the reader turned photometric values into radiometric ones."""
-        facts = field_facts(self.lights)
-        value = facts.get("LuminousEfficacy", 683.002)
-        return float(value[0] if isinstance(value, list) else value)
+        return float(self.lights.fact("LuminousEfficacy", 683.002))
 
     def refine(self, max_edge):
         """Splits large triangles (mesh.refine)."""
@@ -74,32 +74,6 @@ class Scene:
         self.surface, self.max_edge = mesh.refine(self.surface, max_edge)
         if self.surface.GetFieldData().GetNumberOfArrays() == 0:
             self.surface.SetFieldData(field)
-
-    def light_rows(self):
-        """The lights as dictionaries for the report."""
-        rows = []
-        data = self.lights.GetPointData()
-
-        def values(name):
-            array = data.GetArray(name)
-            return None if array is None else vtk_to_numpy(array)
-
-        kinds, intensity, enabled = values("LightType"), values("Intensity"), values("LightEnabled")
-        direction, cutoff = values("Direction"), values("SpotCutoff")
-        for index in range(self.lights.GetNumberOfPoints()):
-            kind = int(kinds[index])
-            row = {
-                "Name": self.light_names[index] if index < len(self.light_names) else str(index),
-                "Kind": LIGHT_KINDS.get(kind, str(kind)),
-                "Intensity": np.atleast_1d(intensity[index]).tolist(),
-                "Unit": "W/m^2" if kind == 2 else "W/sr",
-                "Enabled": bool(enabled is None or enabled[index]),
-                "Position": None if kind == 2 else list(self.lights.GetPoint(index)),
-                "Direction": None if kind == 0 or direction is None else direction[index].tolist(),
-                "Cutoff": float(cutoff[index]) if kind == 1 and cutoff is not None else None,
-            }
-            rows.append(row)
-        return rows
 
 
 def _check(path, surface, lights, radiosity):
@@ -112,9 +86,7 @@ def _check(path, surface, lights, radiosity):
         raise InputFault(f"{path}: point {bad[0]} is {tuple(xyz[bad[0]])}: expected finite numbers")
     exitance = mesh.cell_array(surface, "EmittedExitance")
     emits = exitance is not None and (exitance > 0.0).any()
-    enabled = lights.GetPointData().GetArray("LightEnabled")
-    lit = lights.GetNumberOfPoints() > 0 and (enabled is None or vtk_to_numpy(enabled).any())
-    if not (lit or emits):
+    if not (lights.lit or emits):
         return ["Lights: nothing gives light, neither a light (KHR_lights_punctual) nor an emissive "
                 "material: every value is 0."]
     if emits and not radiosity:
@@ -164,23 +136,26 @@ def read(path, options, progress):
         if listener.errors:
             words = listener.errors[0]
             raise InputFault(words if path in words else f"{path}: {words}")
-    surface, lights = vtkPolyData(), vtkPolyData()
+    surface, own = vtkPolyData(), vtkPolyData()
     surface.ShallowCopy(reader.GetOutputDataObject(0))
-    lights.ShallowCopy(reader.GetOutputDataObject(1))
+    own.ShallowCopy(reader.GetOutputDataObject(1))
+    lights = Lights(own)
+    assumptions = [reader.GetAssumption(k) for k in range(reader.GetNumberOfAssumptions())]
+    with progress.stage("Lights"):
+        assumptions += added_lights.add(lights, options, Scene.UP, Scene.NORTH)
     warnings = _check(path, surface, lights, options.radiosity)
     for words in warnings:
         sys.stderr.write(f"run: warning: {path}: {words}\n")
-    assumptions = [reader.GetAssumption(k) for k in range(reader.GetNumberOfAssumptions())]
     assumptions += warnings
-    names = lights.GetFieldData().GetAbstractArray("LightNames")
-    names = [names.GetValue(k) for k in range(names.GetNumberOfValues())] if names else []
     camera = _camera(reader, surface.GetBounds(), options.size[0] / options.size[1])
     if options.two_sided is not None:
         _set_two_sided(surface, options.two_sided)
         assumptions.append("Sides: every surface counts on "
                            + ("both sides" if options.two_sided else "its front only")
                            + ", as the command line says.")
-    scene = Scene(path, surface, lights, camera, assumptions, names)
+    scene = Scene(path, surface, lights, camera, assumptions)
+    if options.work_plane is not None:
+        scene.work_plane = workplane.make(scene, options)
     with progress.stage("Refining"):
         try:
             scene.refine(options.max_edge)

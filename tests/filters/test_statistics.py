@@ -329,6 +329,11 @@ def _named(name, values):
     return result
 
 
+def test_lines_can_be_left_out():
+    lines, levels = lines_of(plane(4, lambda x, y: x), 5.0, GenerateIsolines=False)
+    assert lines.GetNumberOfPoints() == 0 and levels.GetNumberOfRows() == 0
+
+
 def test_none_as_in_paraview():
     data = surface(POINTS, CELLS, {"E": [10.0, 1.0, 99.0]})
     assert len(table(data, "E", GroupArray="None", IsolineArray="None")) == 1
