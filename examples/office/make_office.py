@@ -23,7 +23,7 @@ DESK_HEIGHT, DESK_THICK, LEG = 0.74, 0.03, 0.04
 CABINET = (4.85, 5.3, 1.2, 3.0)
 CABINET_HEIGHT = 1.2
 
-FLUX = 4200.0                      # lm of one luminaire
+FLUX = 6400.0                      # lm of one luminaire
 
 
 def shell(scene, materials):
@@ -102,7 +102,7 @@ def write_ies(path):
     # int cos g (1 + w sin^2 g) sin g dg = 1/2 + w/4 from 0 to 90 degrees; the mean of w is 2.1.
     scale = FLUX / (2.0 * math.pi * (0.5 + 2.1 / 4.0))
     verticals = [2.5 * k for k in range(37)]
-    horizontals = [15.0 * k for k in range(7)]
+    horizontals = [5.0 * k for k in range(19)]
 
     def numbers(values, form):
         texts = [format(v, form) for v in values]

@@ -1,19 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The lights of the command line: luminaires from files, the sky and the sun."""
-import math
+"""The lights of the command line: luminaires from files."""
 import os
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .faults import InputFault, Listener
-from .vtkRadiometryFilters import (vtkDirectionalLightSource, vtkEnvironmentLightSource,
-                                   vtkPhotometricFileReader)
-
-# CIE standard general sky (ISO 15469:2004, table 1): type 12 clear, 7 partly cloudy.
-SKY_TYPES = {"clear": 12, "intermediate": 7}
-SUN_ILLUMINANCE = {None: 80000.0, "clear": 80000.0, "intermediate": 20000.0}
-
+from .vtkRadiometryFilters import vtkPhotometricFileReader
 
 def _made(source, where):
     """The output of a source; its errors as an InputFault, its warnings returned."""
@@ -52,3 +45,8 @@ def _luminaires(lights, options, up):
         words.append(f"Luminaire {name}: {reader.GetFluxFromWeb():.5g} {reader.GetFluxUnit()} by its "
                      "intensities.")
     return words
+
+
+def add(lights, options, up, north):
+    """Adds the command line's lights to those of the scene; returns what was assumed, in words."""
+    return _luminaires(lights, options, up)

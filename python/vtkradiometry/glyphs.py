@@ -8,7 +8,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
-from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkFiltersSources import vtkArrowSource, vtkConeSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
@@ -80,7 +80,11 @@ def _grid_surface(places):
     data = vtkPolyData()
     data.SetPoints(points)
     data.SetPolys(quads)
-    return data
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(data)
+    normals.SetFeatureAngle(80.0)
+    normals.Update()
+    return normals.GetOutput()
 
 
 def _web_solid(light):

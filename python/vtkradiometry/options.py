@@ -55,17 +55,6 @@ def _vector(text):
     return values
 
 
-def _sun(text):
-    try:
-        altitude, azimuth = (float(part) for part in text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text} is not ALTITUDE,AZIMUTH") from None
-    if not (0.0 < altitude <= 90.0 and -360.0 <= azimuth <= 360.0):
-        raise argparse.ArgumentTypeError(
-            f"{text}: the altitude must lie in (0, 90] degrees, the azimuth in [-360, 360]")
-    return altitude, azimuth
-
-
 def _height(text):
     try:
         value = float(text)
@@ -170,17 +159,6 @@ def make_parser(program="./run"):
                        metavar="X,Y,Z", help="where it hangs; again for further copies of it")
     added.add_argument("--toward", action=_Luminaire, dest="luminaires", type=_vector,
                        metavar="X,Y,Z", help="a point that the copy before looks at (default: down)")
-    added.add_argument("--sky", choices=["uniform", "overcast", "clear", "intermediate"],
-                       help="light from the sky, by the CIE's standard distributions; clear and "
-                       "intermediate ones need --sun")
-    added.add_argument("--sky-illuminance", type=_positive, default=10000.0, metavar="LUX",
-                       help="what the whole sky gives on open level ground (default: 10000)")
-    added.add_argument("--sun", type=_sun, metavar="ALTITUDE,AZIMUTH",
-                       help="where the sun is, degrees above the horizon and from north over east; "
-                       "under a clear or intermediate sky, or with no --sky, it shines")
-    added.add_argument("--sun-illuminance", type=_not_negative, default=None, metavar="LUX",
-                       help="of the sun on a surface that faces it (default: 80000 with a clear sky "
-                       "or none, 20000 with an intermediate one, 0 with others)")
 
     plane = parser.add_argument_group("measuring grid")
     plane.add_argument("--work-plane", type=_height, nargs="?", const=0.8, metavar="HEIGHT",

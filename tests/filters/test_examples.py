@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The example scenes: what their generators write, closed, turned the right way, with the published
 numbers."""
+import importlib.util
 import math
 import os
 import subprocess
@@ -13,7 +14,8 @@ from gltf_tools import areas
 from vtkradiometry import (vtkDirectionalLightSource, vtkIrradianceFilter, vtkPointLightSource,
                            vtkRadiometricSceneReader)
 
-EXAMPLES = {"gallery": "make_gallery.py", "cornell-box": "make_cornell_box.py"}
+EXAMPLES = {"gallery": "make_gallery.py", "cornell-box": "make_cornell_box.py",
+            "office": "make_office.py"}
 K = 683.002
 
 
@@ -44,8 +46,12 @@ def test_generators_write_these_files():
             new = os.path.join(folder, "new.glb")
             subprocess.run([sys.executable, os.path.join(SOURCE_DIR, "examples", name, script), new],
                            check=True, stdout=subprocess.DEVNULL)
-            with open(new, "rb") as a, open(path_of(name), "rb") as b:
-                assert a.read() == b.read(), name
+            for kind in (".glb", ".ies"):
+                made, kept = (os.path.splitext(p)[0] + kind for p in (new, path_of(name)))
+                assert os.path.exists(made) == os.path.exists(kept), (name, kind)
+                if os.path.exists(kept):
+                    with open(made, "rb") as a, open(kept, "rb") as b:
+                        assert a.read() == b.read(), (name, kind)
 
 
 def test_triangles():
@@ -150,6 +156,58 @@ def test_gallery():
     lamp = vtkPointLightSource()
     lamp.SetPosition(points(reader.GetOutput(1))[0])
     assert lit(reader, lamp)[of_object(reader, "ceiling")].max() == 0
+
+
+def office():
+    """The generator of the office as a module."""
+    path = os.path.join(SOURCE_DIR, "examples", "office", "make_office.py")
+    spec = importlib.util.spec_from_file_location("make_office", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_office_is_closed_but_for_its_window():
+    reader = read("office")
+    for direction in ((0, -1, 0), (0, 1, 0), (0, 0, -1), (0, 0, 1), (-1, 0, 0), (-1, -1, -1)):
+        sun = vtkDirectionalLightSource()
+        sun.SetDirection(direction)
+        assert lit(reader, sun).max() == 0.0, direction
+    sun = vtkDirectionalLightSource()
+    sun.SetDirection((1, -1, 0))
+    assert lit(reader, sun)[of_object(reader, "floor")].max() > 0.5
+
+
+def test_office_figures():
+    """What office.py prints, against the sum over its two luminaires by their own formula."""
+    made = office()
+    script = os.path.join(SOURCE_DIR, "examples", "office", "office.py")
+    said = subprocess.run([sys.executable, script], check=True, capture_output=True,
+                          text=True).stdout.split()
+    figures = {name: float(said[said.index(name) + 1])
+               for name in ("Mean", "Minimum", "Maximum", "U0", "Ud", "Cells")}
+    side, zone = (made.X, made.Z), 0.5
+    # 4.4 x 3.2 m: p = 0.2 * 5^log10(4.4) = 0.564 m, so 8 x 6 points.
+    count = (8, 6)
+    assert figures["Cells"] == 48
+    values = []
+    for i in range(count[0]):
+        for j in range(count[1]):
+            x, z = (zone + (side[k] - 2 * zone) * (n + 0.5) / count[k]
+                    for k, n in enumerate((i, j)))
+            total = 0.0
+            for lamp_x, lamp_z in made.LUMINAIRES:
+                dx, dz, drop = x - lamp_x, z - lamp_z, made.LUMINAIRE_BOTTOM - 0.005 - 0.8
+                r = math.sqrt(dx * dx + dz * dz + drop * drop)
+                plane = math.degrees(math.atan2(dz, dx))
+                gamma = math.degrees(math.acos(drop / r))
+                total += made.intensity(plane, gamma) * drop / r**3
+            values.append(total * made.FLUX / (2 * math.pi * (0.5 + 2.1 / 4)))
+    mean = sum(values) / len(values)
+    for name, value in (("Mean", mean), ("Minimum", min(values)), ("Maximum", max(values)),
+                        ("U0", min(values) / mean), ("Ud", min(values) / max(values))):
+        # The file is linear between its angles (5 and 2.5 degrees), the figures have four digits.
+        close(figures[name], value, relative=0.004)
 
 
 if __name__ == "__main__":
