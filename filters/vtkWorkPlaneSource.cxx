@@ -78,11 +78,31 @@ Vec3 PointOf(vtkPolyData* data, vtkIdType i)
   return Vector(p);
 }
 
+/// The polygons all of whose corners are on the floor.
+void AddFloor(vtkPolyData* data, radiometry::RoomExtent& extent)
+{
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    data->GetCellPoints(i, ids);
+    bool floor = ids->GetNumberOfIds() > 2;
+    for (vtkIdType k = 0; floor && k < ids->GetNumberOfIds(); ++k)
+    {
+      floor = extent.OnFloor(PointOf(data, ids->GetId(k)));
+    }
+    for (vtkIdType k = 0; floor && k < ids->GetNumberOfIds(); ++k)
+    {
+      extent.AddFloor(PointOf(data, ids->GetId(k)));
+    }
+  }
+}
+
 radiometry::GridParallelogram RoomPlane(
   vtkDataObject* input, const Vec3& up, double height, double margin)
 {
   radiometry::RoomExtent extent(up);
-  for (const SceneAdapter::Block& block : Surfaces(input))
+  const auto blocks = Surfaces(input);
+  for (const SceneAdapter::Block& block : blocks)
   {
     for (vtkIdType i = 0; i < block.Data->GetNumberOfPoints(); ++i)
     {
@@ -92,6 +112,10 @@ radiometry::GridParallelogram RoomPlane(
   if (extent.Empty())
   {
     throw InputError("Input", -1, "empty", "a room with points");
+  }
+  for (const SceneAdapter::Block& block : blocks)
+  {
+    AddFloor(block.Data, extent);
   }
   return extent.Plane(height, margin);
 }

@@ -54,7 +54,8 @@ public:
   ///@{
   /// Where the sensors lie. 0 Auto (default): Room where there is an input, else Rectangle.
   /// 1 Rectangle: Origin, Point1, Point2. 2 Room: a plane at Height over the lowest point of the
-  /// input, within its extent less WallZone. 3 OnSurface: on every polygon of the input, with its
+  /// input, within the floor's extent less WallZone; the floor is what lies as low, where it spans at
+  /// least half of the input both ways, else the whole input. 3 OnSurface: on every polygon of the input, with its
   /// normal; a sensor that lies on a surface is not shadowed by it.
   vtkSetMacro(Mode, int);
   vtkGetMacro(Mode, int);

@@ -197,29 +197,46 @@ RoomExtent::RoomExtent(const Vec3& up)
   this->Axes = { x, Cross(z, x), z };
 }
 
-void RoomExtent::Add(const Vec3& point)
+void RoomExtent::Box::Add(const std::array<Vec3, 3>& axes, const Vec3& point)
 {
   for (int k = 0; k < 3; ++k)
   {
-    const double at = Dot(this->Axes[k], point);
+    const double at = Dot(axes[k], point);
     this->Low[k] = this->Count == 0 ? at : std::min(this->Low[k], at);
     this->High[k] = this->Count == 0 ? at : std::max(this->High[k], at);
   }
   ++this->Count;
 }
 
+void RoomExtent::Add(const Vec3& point)
+{
+  this->Whole.Add(this->Axes, point);
+}
+
+bool RoomExtent::OnFloor(const Vec3& point) const
+{
+  return Dot(this->Axes[2], point) <= this->Whole.Low[2] + 1e-3 * this->Whole.Side(2);
+}
+
+void RoomExtent::AddFloor(const Vec3& point)
+{
+  this->Floor.Add(this->Axes, point);
+}
+
 GridParallelogram RoomExtent::Plane(double height, double margin) const
 {
-  std::array<double, 2> margins{};
+  const bool floor = this->Floor.Count > 0 &&
+    this->Floor.Side(0) >= 0.5 * this->Whole.Side(0) &&
+    this->Floor.Side(1) >= 0.5 * this->Whole.Side(1);
+  const Box& box = floor ? this->Floor : this->Whole;
+  Vec3 corner = (this->Whole.Low[2] + height) * this->Axes[2];
   std::array<double, 2> sides{};
   for (int k = 0; k < 2; ++k)
   {
-    const double side = this->High[k] - this->Low[k];
-    margins[k] = std::min(margin, 0.25 * side);
-    sides[k] = side - 2.0 * margins[k];
+    const double zone = std::min(margin, 0.25 * box.Side(k));
+    sides[k] = box.Side(k) - 2.0 * zone;
+    corner += (box.Low[k] + zone) * this->Axes[k];
   }
-  const Vec3 corner = (this->Low[0] + margins[0]) * this->Axes[0] +
-    (this->Low[1] + margins[1]) * this->Axes[1] + (this->Low[2] + height) * this->Axes[2];
   return { corner, sides[0] * this->Axes[0], sides[1] * this->Axes[1] };
 }
 

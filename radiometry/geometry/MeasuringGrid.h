@@ -63,24 +63,36 @@ void AddSensors(const Triangle3& triangle, double spacing, std::vector<Sensor>& 
 /// or not flat to rounding: triangulate it then.
 bool AddSensors(const std::array<Vec3, 4>& quad, double spacing, std::vector<Sensor>& sensors);
 
-/// The extent of a room about an up direction: horizontal planes in it.
+/// The extent of a room about an up direction: horizontal planes in it. First all points are added,
+/// then the polygons of its floor; where those span at least half of the whole both ways, they are
+/// the extent (a window's reveal or a porch is none of it), else the points are.
 class RoomExtent
 {
 public:
   /// Fails: InputError, a direction of no length.
   explicit RoomExtent(const Vec3& up);
   void Add(const Vec3& point);
-  bool Empty() const { return this->Count == 0; }
+  bool Empty() const { return this->Whole.Count == 0; }
+  /// Whether a point is as low as the lowest one, within a thousandth of the height.
+  bool OnFloor(const Vec3& point) const;
+  void AddFloor(const Vec3& point);
   /// The plane at `height` above the lowest point, `margin` away from the outermost points, but at
   /// most a quarter of the side, so that something is left of a narrow room; its front is up. Along
   /// a coordinate axis as up, its sides follow the other two axes.
   GridParallelogram Plane(double height, double margin) const;
 
 private:
+  struct Box
+  {
+    std::array<double, 3> Low{};
+    std::array<double, 3> High{};
+    std::int64_t Count = 0;
+    void Add(const std::array<Vec3, 3>& axes, const Vec3& point);
+    double Side(int k) const { return this->High[k] - this->Low[k]; }
+  };
   std::array<Vec3, 3> Axes; // side 1, side 2, up: right-handed
-  std::array<double, 3> Low{};
-  std::array<double, 3> High{};
-  std::int64_t Count = 0;
+  Box Whole;
+  Box Floor;
 };
 
 } // namespace radiometry

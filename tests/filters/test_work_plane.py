@@ -138,6 +138,21 @@ def test_work_plane_over_a_room():
     assert whole[:, 0].min() < 7.4
 
 
+def test_the_floor_decides_and_not_what_sticks_out():
+    """A window's box outside the wall does not widen the room; a room without a floor, or with a
+    small pit in it, is its bounds."""
+    append = vtk.vtkAppendPolyData()
+    append.AddInputData(box(6, 4, 3))
+    append.AddInputData(box(1, 1, 1, centre=(3.5, 0, 0)))
+    append.Update()
+    close(points(made(work_plane(append.GetOutput()))), points(made(work_plane(box(6, 4, 3)))))
+    append.AddInputData(box(0.5, 0.5, 0.5, centre=(0, 0, -1.75)))  # a pit: lowest, and small
+    append.Update()
+    mesh = work_plane(append.GetOutput(), Height=1)
+    made(mesh)
+    close(mesh.GetOutput(1).GetBounds(), (-2.5, 3.5, -1.5, 1.5, -1, -1))
+
+
 def test_narrow_rooms_keep_half_of_their_width():
     """A corridor of 1.2 m would lose all but 0.2 m to zones of 0.5 m: they are 0.3 m there."""
     mesh = work_plane(box(6, 1.2, 3))
