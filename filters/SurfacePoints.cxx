@@ -2,6 +2,7 @@
 #include "SurfacePoints.h"
 
 #include "SceneAdapter.h"
+#include "radiometry/geometry/PolygonTriangles.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 
@@ -47,6 +48,28 @@ vtkSmartPointer<vtkPolyData> SplitCreases(vtkPolyData* input, double featureAngl
   normals->ComputeCellNormalsOff();
   normals->Update();
   return normals->GetOutput();
+}
+
+/// Unit normals of the cells, in double (VTK's are single and would tilt a turned surface by 1e-7);
+/// zero for cells without area.
+std::vector<radiometry::Vec3> CellNormals(vtkPolyData* data)
+{
+  std::vector<radiometry::Vec3> normals(static_cast<std::size_t>(data->GetNumberOfCells()));
+  std::vector<radiometry::Vec3> polygon;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    data->GetCellPoints(c, corners);
+    polygon.clear();
+    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
+    {
+      double p[3];
+      data->GetPoint(corners->GetId(k), p);
+      polygon.push_back({ p[0], p[1], p[2] });
+    }
+    normals[c] = radiometry::PolygonNormal(polygon);
+  }
+  return normals;
 }
 
 } // namespace
@@ -122,6 +145,7 @@ void SurfacePoints::AddVertices(vtkPolyData* split, std::size_t firstCell,
     trianglesOf[scene.TriangleCell[t]].push_back(static_cast<std::int32_t>(t));
   }
   const vtkSmartPointer<vtkDataArray> normals = split->GetPointData()->GetNormals();
+  const std::vector<radiometry::Vec3> cellNormals = CellNormals(split);
   auto* origin = vtkIdTypeArray::SafeDownCast(split->GetCellData()->GetArray(OriginalCell));
   split->BuildLinks();
   vtkNew<vtkIdList> cells;
@@ -131,14 +155,10 @@ void SurfacePoints::AddVertices(vtkPolyData* split, std::size_t firstCell,
     split->GetPoint(i, p);
     radiometry::SurfacePoint point;
     point.Point = metersPerUnit * radiometry::Vec3{ p[0], p[1], p[2] } - scene.Origin;
-    if (normals)
-    {
-      point.Normal = radiometry::Normalized({ normals->GetComponent(i, 0), normals->GetComponent(i, 1),
-        normals->GetComponent(i, 2) });
-    }
     split->GetPointCells(i, cells);
     for (vtkIdType k = 0; k < cells->GetNumberOfIds(); ++k)
     {
+      point.Normal += cellNormals[cells->GetId(k)];
       const auto cell = firstCell + static_cast<std::size_t>(origin->GetValue(cells->GetId(k)));
       for (const std::int32_t t : trianglesOf[cell])
       {
@@ -153,6 +173,7 @@ void SurfacePoints::AddVertices(vtkPolyData* split, std::size_t firstCell,
         }
       }
     }
+    point.Normal = radiometry::Normalized(point.Normal);
     point.Triangle = point.Around.empty() ? -1 : point.Around.front();
     this->All.push_back(std::move(point));
   }

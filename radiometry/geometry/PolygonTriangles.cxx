@@ -208,4 +208,14 @@ std::vector<std::array<std::int32_t, 3>> PolygonTriangles(const std::vector<Vec3
   return triangles;
 }
 
+Vec3 PolygonNormal(const std::vector<Vec3>& corners)
+{
+  Vec3 sum;
+  for (std::size_t k = 2; k < corners.size(); ++k)
+  {
+    sum += Cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
+  }
+  return Normalized(sum);
+}
+
 } // namespace radiometry

@@ -19,4 +19,7 @@ namespace radiometry
 ///   Cost    O(n^2)
 std::vector<std::array<std::int32_t, 3>> PolygonTriangles(const std::vector<Vec3>& corners);
 
+/// The unit vector along a polygon's vector area; zero where it has none.
+Vec3 PolygonNormal(const std::vector<Vec3>& corners);
+
 } // namespace radiometry

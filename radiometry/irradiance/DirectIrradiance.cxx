@@ -4,8 +4,10 @@
 #include "radiometry/irradiance/AreaIrradiance.h"
 #include "radiometry/irradiance/BeamIrradiance.h"
 #include "radiometry/irradiance/SkyIrradiance.h"
+#include "radiometry/scene/InputError.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace radiometry
 {
@@ -34,6 +36,19 @@ bool AnySky(const Scene& scene, const DirectOptions& options)
   return options.Environment &&
     std::any_of(scene.Lights.begin(), scene.Lights.end(),
       [](const Light& l) { return l.Enabled && l.Type == LightType::Environment; });
+}
+
+/// What no double holds is an error and never an infinity handed on.
+void CheckFinite(const DirectResult& result)
+{
+  for (std::size_t i = 0; i < result.Irradiance.size(); ++i)
+  {
+    if (!std::isfinite(result.Irradiance[i]) || !std::isfinite(result.Error[i]))
+    {
+      throw InputError("Irradiance", static_cast<long long>(i) / result.Bands,
+        result.Irradiance[i], "a number below 1e308 W/m^2: less intensity, or lights less near");
+    }
+  }
 }
 
 template <typename Receivers>
@@ -85,6 +100,7 @@ DirectResult Compute(const Scene& scene, const OcclusionScene& occluders,
   {
     result.Irradiance[i] += scene.GlobalAmbient[i % bands];
   }
+  CheckFinite(result);
   Report(stage.Listener, stage.End, stage.Name);
   return result;
 }

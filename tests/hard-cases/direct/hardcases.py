@@ -6,7 +6,7 @@ import traceback
 from math import pi
 
 import numpy as np
-from filters.checks import Errors, array, close, fails  # noqa: F401 (handed on to the tests)
+from filters.checks import Errors, array, fails  # noqa: F401 (handed on to the tests)
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -136,6 +136,35 @@ def sun(direction, irradiance=1.0, **arrays):
     return Light(2, (0, 0, 0), irradiance, Direction=np.asarray(direction, float), **arrays)
 
 
+# One light of each kind, for cases that ask the same of all: over and beside the scene of `room`.
+KINDS = {
+    "point": lambda: point((0.31, 0.22, 1.71), 5.0),
+    "spot": lambda: spot((0.31, 0.22, 1.71), (-0.2, 0.1, -1), 50.0, 1.5, 7.0),
+    "smooth spot": lambda: spot((-0.7, 0.4, 1.9), (0.3, 0.1, -1), 40.0, 0.0, 9.0,
+                                SpotInnerCutoff=20.0),
+    "sun": lambda: sun((0.3, -0.2, -0.9), 3.0),
+    "legacy": lambda: point((0.31, 0.22, 1.71), 5.0, Attenuation=(1.0, 0.5, 0.25)),
+}
+# E(s x) = s^p E(x) when the scene is scaled by s and the intensities stay.
+SCALE_POWER = {"point": -2, "spot": -2, "smooth spot": -2, "sun": 0}
+
+
+def room():
+    """A floor under a box that stands on it, a plate and a ball that float above: points, quads."""
+    ball = []
+    n = 6
+    for j in range(n + 1):
+        for i in range(2 * n):
+            t, f = pi * j / n, pi * i / n
+            ball.append((0.9 + 0.3 * np.sin(t) * np.cos(f), 0.8 + 0.3 * np.sin(t) * np.sin(f),
+                         0.7 + 0.3 * np.cos(t)))
+    quads = [(j * 2 * n + i, (j + 1) * 2 * n + i, (j + 1) * 2 * n + (i + 1) % (2 * n),
+              j * 2 * n + (i + 1) % (2 * n)) for j in range(n) for i in range(2 * n)]
+    return joined(grid((-2, -2, 0), (4, 0, 0), (0, 4, 0), 5, 5),
+                  box((-0.9, -0.8, 0), (-0.2, 0.1, 0.6), 2),
+                  grid((0.1, -1.2, 1.0), (0.9, 0.1, 0), (0, 0.8, 0.2)), (ball, quads))
+
+
 DEFAULTS = {"Direction": (0.0, 0.0, -1.0), "SpotCutoff": 180.0, "SpotExponent": 0.0,
             "SpotInnerCutoff": -1.0, "Attenuation": (0.0, 0.0, 1.0), "LightEnabled": 1,
             "AttachedTo": 0, "PhotometricWeb": -1, "LightTwoSided": 0,
@@ -218,6 +247,19 @@ def cell(surface, lights, **properties):
     e = Run(surface, lights, **properties).e
     assert e.shape == (1, 1), e.shape
     return e[0, 0]
+
+
+def close(value, expected, relative=1e-12, absolute=0.0):
+    """Asserts that value(s) agree with expected one(s), and tells the worst; NaN never does."""
+    value, expected = np.asarray(value, float), np.asarray(expected, float)
+    assert value.shape == expected.shape, (value.shape, expected.shape)
+    allowed = relative * np.abs(expected) + absolute
+    bad = ~(np.abs(value - expected) <= allowed)
+    if bad.any():
+        at = np.unravel_index(np.argmax(np.where(bad, np.abs(value - expected) / (allowed + 1e-300),
+                                                 -1)), bad.shape) if bad.shape else ()
+        raise AssertionError(f"{bad.sum()} of {bad.size} differ; at {at} {value[at]!r} is not "
+                             f"{expected[at]!r} (relative {relative}, absolute {absolute})")
 
 
 # --- oracles -----------------------------------------------------------------------------------
