@@ -2,74 +2,124 @@
 #include "SurfacePoints.h"
 
 #include "SceneAdapter.h"
-#include "radiometry/geometry/PolygonTriangles.h"
+#include "radiometry/geometry/Creases.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
+#include "radiometry/scene/Units.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataNormals.h"
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 namespace
 {
 
-constexpr char OriginalCell[] = "RadiometryOriginalCell";
-
-/// A copy whose points are split along creases and carry normals; cells remember their origin.
-vtkSmartPointer<vtkPolyData> SplitCreases(vtkPolyData* input, double featureAngle)
+/// The polygons of a surface, strips as triangles, for the core.
+struct Polygons
 {
-  vtkNew<vtkPolyData> tagged;
-  tagged->ShallowCopy(input);
-  vtkNew<vtkIdTypeArray> origin;
-  origin->SetName(OriginalCell);
-  origin->SetNumberOfTuples(input->GetNumberOfCells());
-  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  std::vector<std::int64_t> Offsets{ 0 };
+  std::vector<std::int64_t> Corners;
+  std::vector<vtkIdType> Origin; // of each, the cell it comes from
+
+  void Add(std::initializer_list<vtkIdType> corners, vtkIdType origin)
   {
-    origin->SetValue(c, c);
+    this->Add(corners.size(), corners.begin(), origin);
   }
-  tagged->GetCellData()->AddArray(origin);
-  tagged->GetPointData()->SetNormals(nullptr);
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(tagged);
-  normals->SetFeatureAngle(featureAngle);
-  normals->SplittingOn();
-  normals->ConsistencyOff();
-  normals->AutoOrientNormalsOff();
-  normals->ComputePointNormalsOn();
-  normals->ComputeCellNormalsOff();
-  normals->Update();
-  return normals->GetOutput();
+  void Add(std::size_t count, const vtkIdType* corners, vtkIdType origin)
+  {
+    this->Corners.insert(this->Corners.end(), corners, corners + count);
+    this->Offsets.push_back(static_cast<std::int64_t>(this->Corners.size()));
+    this->Origin.push_back(origin);
+  }
+};
+
+Polygons CollectPolygons(vtkPolyData* data)
+{
+  Polygons polygons;
+  vtkIdType cell = data->GetNumberOfVerts() + data->GetNumberOfLines();
+  vtkIdType n = 0;
+  const vtkIdType* ids = nullptr;
+  const auto polys = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (polys->GoToFirstCell(); !polys->IsDoneWithTraversal(); polys->GoToNextCell(), ++cell)
+  {
+    polys->GetCurrentCell(n, ids);
+    polygons.Add(static_cast<std::size_t>(n), ids, cell);
+  }
+  const auto strips = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
+  for (strips->GoToFirstCell(); !strips->IsDoneWithTraversal(); strips->GoToNextCell(), ++cell)
+  {
+    strips->GetCurrentCell(n, ids);
+    for (vtkIdType k = 0; k + 2 < n; ++k)
+    {
+      const vtkIdType odd = k % 2;
+      polygons.Add({ ids[k + odd], ids[k + 1 - odd], ids[k + 2] }, cell);
+    }
+  }
+  return polygons;
 }
 
-/// Unit normals of the cells, in double (VTK's are single and would tilt a turned surface by 1e-7);
-/// zero for cells without area.
-std::vector<radiometry::Vec3> CellNormals(vtkPolyData* data)
+/// The polydata of a split surface: points repeated as it says, all data carried along, normals.
+vtkSmartPointer<vtkPolyData> MakePolyData(
+  vtkPolyData* input, const Polygons& polygons, const radiometry::SplitSurface& split)
 {
-  std::vector<radiometry::Vec3> normals(static_cast<std::size_t>(data->GetNumberOfCells()));
-  std::vector<radiometry::Vec3> polygon;
-  vtkNew<vtkIdList> corners;
-  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  auto output = vtkSmartPointer<vtkPolyData>::New();
+  output->GetFieldData()->ShallowCopy(input->GetFieldData());
+  const auto count = static_cast<vtkIdType>(split.Source.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(input->GetPoints() ? input->GetPoints()->GetDataType() : VTK_DOUBLE);
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName(radiometry::names::Normals);
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(count);
+  vtkPointData* attributes = output->GetPointData();
+  attributes->CopyAllOn();
+  attributes->CopyAllocate(input->GetPointData(), count);
+  for (vtkIdType i = 0; i < count; ++i)
   {
-    data->GetCellPoints(c, corners);
-    polygon.clear();
-    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
-    {
-      double p[3];
-      data->GetPoint(corners->GetId(k), p);
-      polygon.push_back({ p[0], p[1], p[2] });
-    }
-    normals[c] = radiometry::PolygonNormal(polygon);
+    points->SetPoint(i, input->GetPoint(split.Source[i]));
+    attributes->CopyData(input->GetPointData(), split.Source[i], i);
+    const radiometry::Vec3& n = split.Normals[i];
+    normals->SetTuple3(i, n.x, n.y, n.z);
   }
-  return normals;
+  output->SetPoints(points);
+  attributes->RemoveArray(radiometry::names::Normals);
+  attributes->SetNormals(normals);
+
+  output->SetVerts(input->GetVerts());
+  output->SetLines(input->GetLines());
+  const vtkIdType others = input->GetNumberOfVerts() + input->GetNumberOfLines();
+  vtkCellData* values = output->GetCellData();
+  values->CopyAllOn();
+  values->CopyAllocate(input->GetCellData(), others + static_cast<vtkIdType>(polygons.Origin.size()));
+  for (vtkIdType c = 0; c < others; ++c)
+  {
+    values->CopyData(input->GetCellData(), c, c);
+  }
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t c = 0; c < polygons.Origin.size(); ++c)
+  {
+    cells->InsertNextCell(static_cast<int>(polygons.Offsets[c + 1] - polygons.Offsets[c]));
+    for (std::int64_t k = polygons.Offsets[c]; k < polygons.Offsets[c + 1]; ++k)
+    {
+      cells->InsertCellPoint(split.Corners[k]);
+    }
+    values->CopyData(input->GetCellData(), polygons.Origin[c], others + static_cast<vtkIdType>(c));
+  }
+  output->SetPolys(cells);
+  return output;
 }
 
 } // namespace
@@ -88,8 +138,8 @@ SurfacePoints::SurfacePoints(const SceneAdapter& adapter, const radiometry::Scen
     }
     else if (wanted && block.Cells > 0)
     {
-      carrier.Data = SplitCreases(block.Data, featureAngle);
-      this->AddVertices(carrier.Data, block.FirstCell, scene, metersPerUnit);
+      carrier.Data =
+        this->AddVertices(block.Data, block.FirstCell, scene, metersPerUnit, featureAngle);
     }
     this->Carriers.push_back(carrier);
   }
@@ -134,55 +184,58 @@ void SurfacePoints::AddSensors(
   }
 }
 
-void SurfacePoints::AddVertices(vtkPolyData* split, std::size_t firstCell,
-  const radiometry::Scene& scene, double metersPerUnit)
+vtkSmartPointer<vtkPolyData> SurfacePoints::AddVertices(vtkPolyData* data, std::size_t firstCell,
+  const radiometry::Scene& scene, double metersPerUnit, double featureAngle)
 {
-  namespace names = radiometry::names;
   // The scene's triangles of each of the caller's cells.
   std::vector<std::vector<std::int32_t>> trianglesOf(scene.Cells);
   for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
   {
     trianglesOf[scene.TriangleCell[t]].push_back(static_cast<std::int32_t>(t));
   }
-  const vtkSmartPointer<vtkDataArray> normals = split->GetPointData()->GetNormals();
-  const std::vector<radiometry::Vec3> cellNormals = CellNormals(split);
-  auto* origin = vtkIdTypeArray::SafeDownCast(split->GetCellData()->GetArray(OriginalCell));
-  split->BuildLinks();
-  vtkNew<vtkIdList> cells;
-  for (vtkIdType i = 0; i < split->GetNumberOfPoints(); ++i)
+  std::vector<radiometry::Vec3> points(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
     double p[3];
-    split->GetPoint(i, p);
+    data->GetPoint(static_cast<vtkIdType>(i), p);
+    points[i] = metersPerUnit * radiometry::Vec3{ p[0], p[1], p[2] } - scene.Origin;
+  }
+  const Polygons polygons = CollectPolygons(data);
+  const radiometry::SplitSurface split = radiometry::SplitAtCreases(points, polygons.Offsets,
+    polygons.Corners, std::cos(radiometry::units::Radians(featureAngle)));
+
+  const std::size_t first = this->All.size();
+  for (std::size_t i = 0; i < split.Source.size(); ++i)
+  {
     radiometry::SurfacePoint point;
-    point.Point = metersPerUnit * radiometry::Vec3{ p[0], p[1], p[2] } - scene.Origin;
-    split->GetPointCells(i, cells);
-    for (vtkIdType k = 0; k < cells->GetNumberOfIds(); ++k)
+    point.Point = points[split.Source[i]];
+    point.Normal = split.Normals[i];
+    this->All.push_back(std::move(point));
+  }
+  for (std::size_t c = 0; c < polygons.Origin.size(); ++c)
+  {
+    const std::vector<std::int32_t>& triangles =
+      trianglesOf[firstCell + static_cast<std::size_t>(polygons.Origin[c])];
+    for (std::int64_t k = polygons.Offsets[c]; k < polygons.Offsets[c + 1]; ++k)
     {
-      point.Normal += cellNormals[cells->GetId(k)];
-      const auto cell = firstCell + static_cast<std::size_t>(origin->GetValue(cells->GetId(k)));
-      for (const std::int32_t t : trianglesOf[cell])
+      radiometry::SurfacePoint& point = this->All[first + split.Corners[k]];
+      for (const std::int32_t t : triangles)
       {
-        // A polygon's triangles: those that have this corner.
-        for (const radiometry::Vec3& corner : scene.TriangleAt(t))
+        // A cell's triangles: those that have this corner, each once.
+        const radiometry::Triangle3 corners = scene.TriangleAt(t);
+        const bool here = std::any_of(corners.begin(), corners.end(),
+          [&](const radiometry::Vec3& corner) { return corner == point.Point; });
+        if (here && std::find(point.Around.begin(), point.Around.end(), t) == point.Around.end())
         {
-          if (Length(corner - point.Point) <= 1e-12 * (Length(corner) + Length(point.Point)))
-          {
-            point.Around.push_back(t);
-            break;
-          }
+          point.Around.push_back(t);
         }
       }
     }
-    point.Normal = radiometry::Normalized(point.Normal);
-    point.Triangle = point.Around.empty() ? -1 : point.Around.front();
-    this->All.push_back(std::move(point));
   }
-  split->GetCellData()->RemoveArray(OriginalCell);
-  split->GetPointData()->SetNormals(nullptr);
-  if (normals)
+  for (std::size_t i = first; i < this->All.size(); ++i)
   {
-    normals->SetName(names::Normals);
-    split->GetPointData()->AddArray(normals);
-    split->GetPointData()->SetActiveNormals(names::Normals);
+    radiometry::SurfacePoint& point = this->All[i];
+    point.Triangle = point.Around.empty() ? -1 : point.Around.front();
   }
+  return MakePolyData(data, polygons, split);
 }

@@ -31,8 +31,8 @@ public:
 
 private:
   void AddSensors(vtkPolyData* data, const radiometry::Scene& scene, double metersPerUnit);
-  void AddVertices(vtkPolyData* split, std::size_t firstCell, const radiometry::Scene& scene,
-    double metersPerUnit);
+  vtkSmartPointer<vtkPolyData> AddVertices(vtkPolyData* data, std::size_t firstCell,
+    const radiometry::Scene& scene, double metersPerUnit, double featureAngle);
 
   std::vector<Block> Carriers;
   std::vector<radiometry::SurfacePoint> All;
