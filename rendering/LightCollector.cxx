@@ -2,11 +2,14 @@
 #include "LightCollector.h"
 
 #include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/CandelaWeb.h"
+#include "radiometry/scene/InputError.h"
 #include "radiometry/scene/Light.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkMath.h"
@@ -16,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace vtkradiometry
@@ -123,6 +127,32 @@ std::string WhatIsWrong(const DisplayLight& light, double cutoff)
                    : std::string(names::Attenuation) + ": expected one value above 0";
 }
 
+/// The mean over all directions of a candela web, relative to its greatest value: what an isotropic
+/// light of the same flux has. Throws InputError where the field data has no such web.
+double MeanOfWeb(vtkFieldData* field, int index)
+{
+  const std::string name = radiometry::names::PhotometricWeb + std::to_string(index);
+  const auto values = [&](const std::string& which) {
+    vtkDataArray* array = field->GetArray((name + which).c_str());
+    if (!array)
+    {
+      throw radiometry::InputError(name + which, -1, "missing", "a field array");
+    }
+    std::vector<double> all;
+    for (vtkIdType k = 0; k < array->GetNumberOfValues(); ++k)
+    {
+      all.push_back(array->GetComponent(
+        k / array->GetNumberOfComponents(), k % array->GetNumberOfComponents()));
+    }
+    return all;
+  };
+  vtkDataArray* type = field->GetArray((name + "Type").c_str());
+  const int kind = type && type->GetNumberOfTuples() > 0 ? static_cast<int>(type->GetComponent(0, 0)) : 1;
+  const radiometry::CandelaWeb web(static_cast<radiometry::WebType>(kind), values("Horizontal"),
+    values("Vertical"), values(""), name);
+  return web.TotalFlux() / (4.0 * vtkMath::Pi());
+}
+
 } // namespace
 
 namespace
@@ -142,6 +172,8 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
   const LightArray ambient(data, names::AmbientColor);
   const LightArray specular(data, names::SpecularColor);
   const LightArray attached(data, names::AttachedTo);
+  const LightArray webs(data, names::PhotometricWeb);
+  std::map<int, double> means; // of the webs, each summed up once
   const auto complain = [&result](vtkIdType i, const std::string& what) {
     if (result.Problem.empty())
     {
@@ -190,6 +222,25 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
         const double innerCutoff = inner.Value(i, -1.0);
         light.SmoothEdge = innerCutoff >= 0.0 && innerCutoff < cutoff;
         light.CosInnerCutoff = std::cos(vtkMath::RadiansFromDegrees(innerCutoff));
+      }
+    }
+    const double web = webs.Value(i, -1.0);
+    if (kind == 0.0 && web >= 0.0)
+    {
+      try
+      {
+        const int index = static_cast<int>(std::min(web, 1e9));
+        const auto known = means.find(index);
+        const double mean =
+          known != means.end() ? known->second : MeanOfWeb(data->GetFieldData(), index);
+        means[index] = mean;
+        light.Diffuse = mean * light.Diffuse;
+        light.Specular = mean * light.Specular;
+      }
+      catch (const radiometry::InputError& error)
+      {
+        complain(i, error.what());
+        continue;
       }
     }
     const std::string wrong = WhatIsWrong(light, cutoff);

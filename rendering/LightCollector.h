@@ -34,6 +34,8 @@ struct CollectedLights
 
 /// Reads the enabled lights of a polydata, or of all polydata in a tree, in the project's light
 /// arrays (docs/arrays.md).
+///   A luminaire with a candela web is drawn as a point light of the same flux: its mean intensity in
+///   all directions. The shape of its light is in the simulation only.
 ///   One band is grey, three are RGB, any other number is the grey of its mean.
 ///   Lights whose values cannot be drawn (not finite, wrong cone, attenuation without a positive
 ///   term) are left out and the first is named in Problem.

@@ -12,6 +12,7 @@
  *           back-face property), scalar colours and block colours as usual
  *   Cost    Flat and Phong O(pixels x lights), Gouraud O(vertices x lights); the generated shader
  *           holds only what the lights and the material need
+ *           A luminaire with a candela web is drawn as a point light of the same flux
  *   Fails   a light that cannot be drawn is left out and named by an error event, once; area and
  *           environment lights are not drawn by this mapper (GetNumberOfLightsNotDrawn)
  *

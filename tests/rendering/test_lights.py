@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from drawing import Errors, Window, add, lights, polydata, run, square
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkMultiBlockDataSet
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
@@ -37,6 +38,31 @@ def test_point_light_in_physical_units():
     w.mapper.SetLightScale(1)
     w.mapper.SetReflectionModelToBlinnPhong()  # legacy: no 1/pi
     assert np.allclose(w.at(0, 0), math.pi * expected, rtol=2e-6)
+
+
+def test_luminaire_is_drawn_with_its_mean_intensity():
+    # A web of cos(gamma) sends pi of its greatest intensity: a quarter of it on average.
+    def with_web(index):
+        data = lights({"Position": (0, 0, 2), "Intensity": (8, 4, 2), "PhotometricWeb": index})
+        gamma = np.linspace(0, 90, 181)
+        for name, values in (("PhotometricWeb0", np.cos(np.radians(gamma)).clip(0)),
+                             ("PhotometricWeb0Horizontal", [0.0]),
+                             ("PhotometricWeb0Vertical", gamma)):
+            array = numpy_to_vtk(np.array(values), deep=True)
+            array.SetName(name)
+            data.GetFieldData().AddArray(array)
+        w = Window()
+        w.mapper.SetInputDataObject(square())
+        w.mapper.SetLightData(data)
+        return w
+
+    plain = lit({"Position": (0, 0, 2), "Intensity": (8, 4, 2)}).at(0, 0)
+    assert np.allclose(with_web(0).at(0, 0), plain / 4, rtol=1e-4)
+    assert np.allclose(with_web(-1).at(0, 0), plain, rtol=1e-6)
+    missing = with_web(3)
+    errors = Errors(missing.mapper)
+    assert (missing.at(0, 0) == 0).all()
+    assert len(errors.texts) == 1 and "PhotometricWeb3" in errors.texts[0], errors.texts
 
 
 def test_one_band_and_other_numbers_of_bands():
