@@ -100,12 +100,11 @@ void RadiosityLevel::IlluminateByEmitters(
     return;
   }
   const EmitterResult e = ComputeEmitterIrradiance(
-    context.Occluders, this->Elements.GetPatches(), this->Emitters, context.Sight(), stage);
+    context.Geometry, context.Occluders, this->Elements.GetPatches(), this->Emitters, context.Sight(), stage);
   for (std::size_t k = 0; k < this->First.size(); ++k)
   {
     this->First[k] += e.Irradiance[k];
-    this->FirstError[k] =
-      std::hypot(this->FirstError[k], DenseCoverage * e.VisibilityError[k]) + e.GeometryError[k];
+    this->FirstError[k] = std::hypot(this->FirstError[k], e.Error[k]);
   }
   this->Irradiance = this->First;
   this->DirectError = this->FirstError;

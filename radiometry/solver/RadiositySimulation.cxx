@@ -119,8 +119,7 @@ FieldValues RadiositySimulation::IrradianceAt(
     for (std::size_t k = 0; k < out.Values.size(); ++k)
     {
       out.Values[k] += e.Irradiance[k];
-      out.Errors[k] =
-        std::hypot(out.Errors[k], DenseCoverage * e.VisibilityError[k]) + e.GeometryError[k];
+      out.Errors[k] = std::hypot(out.Errors[k], e.Error[k]);
     }
   }
   if (level.F)

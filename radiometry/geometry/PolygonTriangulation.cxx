@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/geometry/PolygonTriangulation.h"
+
+#include "radiometry/geometry/ConvexPolygon.h"
+#include "radiometry/geometry/Sampling.h"
+#include "radiometry/scene/InputError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr double Rounding = 1e-13; // of areas, relative to the square of the extent
+
+struct Corner
+{
+  double u = 0.0; // in the polygon's plane, its extent being 1
+  double v = 0.0;
+  std::size_t Index = 0;
+};
+
+double Turn(const Corner& a, const Corner& b, const Corner& c)
+{
+  return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+}
+bool Same(const Corner& a, const Corner& b)
+{
+  return a.u == b.u && a.v == b.v;
+}
+
+/// True when the inner points of two edges cross (touching and overlapping edges do not).
+bool Cross2(const Corner& a, const Corner& b, const Corner& c, const Corner& d)
+{
+  const double ac = Turn(a, b, c), ad = Turn(a, b, d), ca = Turn(c, d, a), cb = Turn(c, d, b);
+  return ((ac > Rounding && ad < -Rounding) || (ac < -Rounding && ad > Rounding)) &&
+    ((ca > Rounding && cb < -Rounding) || (ca < -Rounding && cb > Rounding));
+}
+
+/// True when no other corner lies inside the ear at `k`.
+bool IsEar(const std::vector<Corner>& ring, std::size_t k)
+{
+  const std::size_t n = ring.size();
+  const Corner& a = ring[(k + n - 1) % n];
+  const Corner& b = ring[k];
+  const Corner& c = ring[(k + 1) % n];
+  if (!(Turn(a, b, c) > Rounding))
+  {
+    return false;
+  }
+  for (const Corner& p : ring)
+  {
+    if (Same(p, a) || Same(p, b) || Same(p, c))
+    {
+      continue;
+    }
+    // On the cut from c to a counts as inside: it would be cut off.
+    if (Turn(a, b, p) > Rounding && Turn(b, c, p) > Rounding && Turn(c, a, p) >= -Rounding)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+std::vector<Triangle3> TriangulatePolygon(
+  const std::vector<Vec3>& corners, const char* array, long long index)
+{
+  std::vector<Vec3> distinct;
+  for (const Vec3& c : corners)
+  {
+    if (distinct.empty() || !(c == distinct.back()))
+    {
+      distinct.push_back(c);
+    }
+  }
+  while (distinct.size() > 1 && distinct.front() == distinct.back())
+  {
+    distinct.pop_back();
+  }
+  if (distinct.size() < 3)
+  {
+    return {};
+  }
+  double extent = 0.0;
+  for (const Vec3& c : distinct)
+  {
+    extent = std::max(extent, Length(c - distinct[0]));
+  }
+  const Vec3 area2 = AreaNormal2(distinct.data(), distinct.size()) / (extent * extent);
+  if (!(Length(area2) > 1e-15))
+  {
+    return {};
+  }
+  if (distinct.size() == 3)
+  {
+    return { { distinct[0], distinct[1], distinct[2] } };
+  }
+  const Vec3 n = Normalized(area2);
+  Vec3 s, t;
+  Frame(n, s, t);
+  std::vector<Corner> ring;
+  for (std::size_t k = 0; k < distinct.size(); ++k)
+  {
+    const Vec3 p = (distinct[k] - distinct[0]) / extent;
+    const double off = std::fabs(Dot(n, p));
+    if (off > PolygonFlatness)
+    {
+      throw InputError(array, index, off, "a flat polygon: no corner off its plane by more than " +
+          std::string("1e-4 of its extent"));
+    }
+    ring.push_back({ Dot(s, p), Dot(t, p), k });
+  }
+  for (std::size_t i = 0; i < ring.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < ring.size(); ++j)
+    {
+      if (Cross2(
+            ring[i], ring[(i + 1) % ring.size()], ring[j], ring[(j + 1) % ring.size()]))
+      {
+        throw InputError(array, index, static_cast<double>(i),
+          "a polygon whose edges do not cross (the value is the first edge that does)");
+      }
+    }
+  }
+
+  std::vector<Triangle3> triangles;
+  const auto cut = [&](std::size_t k) {
+    const std::size_t m = ring.size();
+    if (Turn(ring[(k + m - 1) % m], ring[k], ring[(k + 1) % m]) > Rounding)
+    {
+      triangles.push_back({ distinct[ring[(k + m - 1) % m].Index], distinct[ring[k].Index],
+        distinct[ring[(k + 1) % m].Index] });
+    }
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
+  };
+  // The ear's neighbour is tried next but one: convex polygons then get no needles.
+  std::size_t at = 1;
+  std::size_t tried = 0;
+  while (ring.size() > 3)
+  {
+    const std::size_t k = at % ring.size();
+    if (IsEar(ring, k))
+    {
+      cut(k);
+      at = k + 1;
+      tried = 0;
+      continue;
+    }
+    ++at;
+    if (++tried <= ring.size())
+    {
+      continue;
+    }
+    // No ear: a corner on a straight line (or a bridge's end) goes without a triangle.
+    std::size_t flattest = 0;
+    double least = 1e300;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+    {
+      const double turn = std::fabs(
+        Turn(ring[(i + ring.size() - 1) % ring.size()], ring[i], ring[(i + 1) % ring.size()]));
+      if (turn < least)
+      {
+        least = turn;
+        flattest = i;
+      }
+    }
+    if (least > Rounding)
+    {
+      break;
+    }
+    cut(flattest);
+    tried = 0;
+  }
+  if (ring.size() == 3)
+  {
+    cut(1);
+  }
+  double sum = 0.0;
+  for (const Triangle3& triangle : triangles)
+  {
+    sum += Length(AreaNormal2(triangle)) / (extent * extent);
+  }
+  if (std::fabs(sum - Length(area2)) > 1e-6 * Length(area2) + 100.0 * Rounding)
+  {
+    throw InputError(array, index, 0.5 * sum * extent * extent,
+      "a polygon that does not overlap itself: triangles as large as its area vector");
+  }
+  return triangles;
+}
+
+} // namespace radiometry

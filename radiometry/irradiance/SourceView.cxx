@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/SourceView.h"
+
+#include "radiometry/geometry/Sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr int RaysAPart = 8;
+
+/// Two halves of a convex polygon, across its longest extent from one corner.
+void Halve(const ConvexPolygon& piece, ConvexPolygon halves[2])
+{
+  // From the middle of the longest edge to the corner or edge opposite.
+  int longest = 0;
+  double length = -1.0;
+  for (int k = 0; k < piece.N; ++k)
+  {
+    const double l = LengthSquared(piece.P[(k + 1) % piece.N] - piece.P[k]);
+    if (l > length)
+    {
+      length = l;
+      longest = k;
+    }
+  }
+  const auto at = [&](int k) { return piece.P[(longest + 1 + k) % piece.N]; };
+  const Vec3 start = 0.5 * (at(-1 + piece.N) + at(0));
+  const int steps = piece.N - 1; // edges from the longest's end around to its begin
+  const int middle = steps / 2;
+  const Vec3 end = steps % 2 == 0 ? at(middle) : 0.5 * (at(middle) + at(middle + 1));
+  halves[0].Add(start);
+  for (int k = 0; k <= middle; ++k)
+  {
+    halves[0].Add(at(k));
+  }
+  if (steps % 2 == 1)
+  {
+    halves[0].Add(end);
+  }
+  halves[1].Add(end);
+  for (int k = middle + 1; k <= steps; ++k)
+  {
+    halves[1].Add(at(k));
+  }
+  halves[1].Add(start);
+}
+
+} // namespace
+
+struct SourceView::Part
+{
+  ConvexPolygon Piece;
+  double Whole = 0.0;
+  double Visible = 0.0;
+  bool Decided = false;
+  bool Touched = false;
+
+  bool operator<(const Part& other) const { return this->Whole < other.Whole; }
+};
+
+SourceView::SourceView(
+  const AreaSources& sources, const Blockers* blockers, const OcclusionScene& occluders)
+  : Sources(sources)
+  , Blocking(blockers)
+  , Occluders(occluders)
+  , NearSurface(sources.Size(), 0)
+{
+  for (std::size_t k = 0; k < sources.Size() && blockers; ++k)
+  {
+    Box3 box;
+    const ConvexPolygon& outline = sources[k].Outline;
+    for (int c = 0; c < outline.N; ++c)
+    {
+      box.Add(outline.P[c]);
+    }
+    this->NearSurface[k] = blockers->AnyNear(box) ? 1 : 0;
+  }
+}
+
+/// Decides a part from the triangles in the pyramid before it, where they are few or hide it.
+void SourceView::Look(const ViewPoint& from, const AreaSource& source, Part& part) const
+{
+  static thread_local std::vector<std::int32_t> inside;
+  ConvexPolygon apex;
+  apex.Add(from.End.Point);
+  Shaft pyramid(apex, part.Piece, this->Blocking->Rounding());
+  pyramid.Add(from.Normal, from.End.Point);
+  // Before the source's own plane, exactly: a piece of it may be too thin to tell.
+  pyramid.Add(source.Normal, source.Outline.P[0]);
+  inside.clear();
+  const bool all = this->Blocking->InShaft(pyramid, MostProof, inside);
+  inside.erase(std::remove(inside.begin(), inside.end(), from.End.Triangle), inside.end());
+  part.Decided = true;
+  if (inside.empty())
+  {
+    part.Visible = part.Whole;
+  }
+  else if (all && inside.size() <= MostCut)
+  {
+    static thread_local Pieces pieces;
+    pieces.assign(1, part.Piece);
+    part.Touched =
+      CutShadows(from.End.Point, *this->Blocking, inside.data(), inside.size(), pieces);
+    part.Visible = part.Touched
+      ? std::min(part.Whole, Factor(from.End.Point, from.Normal, pieces))
+      : part.Whole;
+  }
+  else if (all && this->Blocking->HideAll(apex, part.Piece, pyramid, inside))
+  {
+    part.Touched = true;
+  }
+  else
+  {
+    part.Decided = false;
+    part.Touched = true;
+  }
+}
+
+void SourceView::Sample(const ViewPoint& from, std::size_t s, const ConvexPolygon& piece,
+  double whole, std::uint64_t key, SeenSource& result) const
+{
+  const AreaSource& source = this->Sources[s];
+  double areas[ConvexPolygon::Capacity] = {};
+  double area = 0.0;
+  for (int k = 2; k < piece.N; ++k)
+  {
+    areas[k] = Area({ piece.P[0], piece.P[k - 1], piece.P[k] });
+    area += areas[k];
+  }
+  const SobolSequence sequence(key);
+  double weights = 0.0;
+  double seen = 0.0;
+  double squares = 0.0; // of the kernels
+  for (int i = 0; i < RaysAPart; ++i)
+  {
+    const auto u = sequence(static_cast<std::uint32_t>(i));
+    double at = u[2] * area;
+    int k = 2;
+    while (k < piece.N - 1 && at > areas[k])
+    {
+      at -= areas[k++];
+    }
+    RayEnd to{ TrianglePoint({ piece.P[0], piece.P[k - 1], piece.P[k] }, u[0], u[1]),
+      source.Triangle };
+    const Vec3 r = to.Point - from.End.Point;
+    const double r2 = LengthSquared(r);
+    const double kernel =
+      std::max(0.0, Dot(from.Normal, r)) * std::max(0.0, -Dot(source.Normal, r)) / (r2 * r2);
+    if (!(kernel > 0.0))
+    {
+      continue;
+    }
+    if (to.Triangle < 0 && this->NearSurface[s])
+    {
+      to.Triangle =
+        this->Occluders.Touching(to.Point, source.Normal, this->Blocking->Rounding());
+      to.Close = to.Triangle < 0 && this->Occluders.TooClose(to.Point);
+    }
+    ++result.Rays;
+    weights += kernel;
+    squares += kernel * kernel;
+    seen += this->Occluders.Occluded(from.End, to) ? 0.0 : kernel;
+  }
+  if (!(weights > 0.0))
+  {
+    return; // below the horizon, within rounding
+  }
+  const double share = seen / weights;
+  const double n = weights * weights / squares;
+  result.Visible += whole * share;
+  // Laplace's rule: also when all agree, something may have gone unnoticed.
+  const double doubt = (share * n + 0.5) / (n + 1.0);
+  result.Variance += whole * whole * doubt * (1.0 - doubt) / n;
+}
+
+SeenSource SourceView::See(const ViewPoint& from, std::size_t s,
+  const std::vector<std::int32_t>* known, int work, std::uint64_t key) const
+{
+  static thread_local Pieces pieces;
+  const AreaSource& source = this->Sources[s];
+  const Vec3& x = from.End.Point;
+  SeenSource result;
+  PiecesAbove(x, from.Normal, from.Horizon, source, pieces);
+  result.Whole = Factor(x, from.Normal, pieces);
+  result.Visible = result.Whole;
+  if (!this->Blocking || !(result.Whole > 0.0) || (known && known->empty()))
+  {
+    return result;
+  }
+  if (known)
+  {
+    result.Touched = CutShadows(x, *this->Blocking, known->data(), known->size(), pieces);
+    result.Visible =
+      result.Touched ? std::min(result.Whole, Factor(x, from.Normal, pieces)) : result.Whole;
+    return result;
+  }
+
+  std::priority_queue<Part> open;
+  result.Visible = 0.0;
+  int parts = 0;
+  const auto look = [&](const ConvexPolygon& piece) {
+    Part part;
+    part.Piece = piece;
+    part.Whole = PointToVisiblePolygon(x, from.Normal, piece);
+    ++parts;
+    this->Look(from, source, part);
+    result.Touched = result.Touched || part.Touched;
+    if (part.Decided)
+    {
+      result.Visible += part.Visible;
+    }
+    else
+    {
+      open.push(part);
+    }
+  };
+  const Pieces whole = pieces;
+  for (const ConvexPolygon& piece : whole)
+  {
+    look(piece);
+  }
+  while (!open.empty() && parts + 2 <= work)
+  {
+    const Part part = open.top();
+    open.pop();
+    ConvexPolygon halves[2];
+    Halve(part.Piece, halves);
+    look(halves[0]);
+    look(halves[1]);
+  }
+  for (std::uint64_t k = 0; !open.empty(); open.pop(), ++k)
+  {
+    this->Sample(from, s, open.top().Piece, open.top().Whole, Hash64(key, k), result);
+  }
+  return result;
+}
+
+} // namespace radiometry
