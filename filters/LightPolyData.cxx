@@ -3,12 +3,14 @@
 
 #include "WebFieldData.h"
 
+#include "radiometry/geometry/PolygonTriangulation.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -18,6 +20,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace names = radiometry::names;
 
@@ -88,17 +91,92 @@ private:
   std::map<int, std::shared_ptr<const radiometry::CandelaWeb>> Webs;
 };
 
+bool IsArea(const radiometry::LightRecord& light)
+{
+  return light.Type == radiometry::LightType::Area;
+}
+
+radiometry::Vec3 PointOf(vtkPolyData* data, vtkIdType i)
+{
+  double p[3];
+  data->GetPoint(i, p);
+  return { p[0], p[1], p[2] };
+}
+
+/// A polygon whose points are corners of an area light.
+struct AreaCell
+{
+  vtkIdType Index = 0; // among the polygons
+  std::vector<vtkIdType> Points;
+};
+
+/// The polygons of points of LightType 3. Every such point must be a corner of one of them, and of
+/// polygons with such points alone.
+std::vector<AreaCell> FindAreaCells(
+  vtkPolyData* input, vtkDataArray* type, const std::string& prefix)
+{
+  std::vector<AreaCell> cells;
+  if (!type)
+  {
+    return cells;
+  }
+  const vtkIdType n = input->GetNumberOfPoints();
+  const auto isCorner = [&](vtkIdType p) { return type->GetComponent(p, 0) == 3.0; };
+  std::vector<char> used(static_cast<std::size_t>(n), 0);
+  vtkCellArray* polygons = input->GetPolys();
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; polygons && c < polygons->GetNumberOfCells(); ++c)
+  {
+    polygons->GetCellAtId(c, ids);
+    AreaCell cell;
+    cell.Index = c;
+    cell.Points.assign(ids->begin(), ids->end());
+    const auto corners = std::count_if(cell.Points.begin(), cell.Points.end(), isCorner);
+    if (corners == 0)
+    {
+      continue;
+    }
+    const auto other = std::find_if_not(cell.Points.begin(), cell.Points.end(), isCorner);
+    if (other != cell.Points.end())
+    {
+      throw radiometry::InputError(prefix + names::LightType, *other, type->GetComponent(*other, 0),
+        "3 at every corner of polygon " + std::to_string(c) + ", as at others of its corners");
+    }
+    for (const vtkIdType p : cell.Points)
+    {
+      used[p] = 1;
+    }
+    cells.push_back(std::move(cell));
+  }
+  for (vtkIdType p = 0; p < n; ++p)
+  {
+    if (isCorner(p) && !used[p])
+    {
+      throw radiometry::InputError(prefix + names::LightType, p, 3.0,
+        "a point of an area light (3) to be a corner of a polygon (vertices, lines and triangle "
+        "strips make no area light)");
+    }
+  }
+  return cells;
+}
+
 } // namespace
 
 void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, bool photometric,
   double luminousEfficacy, vtkPolyData* output)
 {
-  const auto n = static_cast<vtkIdType>(lights.size());
+  // An area light has a point a corner, each with all of its arrays; any other light has one.
+  vtkIdType n = 0;
+  for (const radiometry::LightRecord& light : lights)
+  {
+    n += IsArea(light) ? static_cast<vtkIdType>(light.Polygon.size()) : 1;
+  }
   output->Initialize();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(n);
   vtkNew<vtkCellArray> verts;
+  vtkNew<vtkCellArray> polygons;
   vtkPointData* data = output->GetPointData();
   const auto type = Add<vtkIntArray>(data, names::LightType, 1, n);
   const auto intensity = Add<vtkDoubleArray>(data, names::Intensity, bands, n);
@@ -113,12 +191,11 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
   const auto specular = Add<vtkDoubleArray>(data, names::SpecularColor, bands, n);
   const auto web = Add<vtkIntArray>(data, names::PhotometricWeb, 1, n);
   const auto attached = Add<vtkIntArray>(data, names::AttachedTo, 1, n);
+  const auto twoSided = Add<vtkIntArray>(data, names::LightTwoSided, 1, n);
   std::vector<const radiometry::CandelaWeb*> webs; // each once, however many lights have it
-  for (vtkIdType i = 0; i < n; ++i)
-  {
-    const radiometry::LightRecord& light = lights[i];
-    points->SetPoint(i, light.Position.x, light.Position.y, light.Position.z);
-    verts->InsertNextCell(1, &i);
+  const auto set = [&](vtkIdType i, const radiometry::LightRecord& light,
+                     const radiometry::Vec3& position) {
+    points->SetPoint(i, position.x, position.y, position.z);
     type->SetValue(i, static_cast<int>(light.Type));
     for (int b = 0; b < bands; ++b)
     {
@@ -135,9 +212,27 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
     enabled->SetValue(i, light.Enabled ? 1 : 0);
     web->SetValue(i, light.Web ? IndexOf(light.Web.get(), webs) : -1);
     attached->SetValue(i, light.AttachedTo);
+    twoSided->SetValue(i, light.TwoSided ? 1 : 0);
+  };
+  vtkIdType at = 0;
+  for (const radiometry::LightRecord& light : lights)
+  {
+    if (!IsArea(light))
+    {
+      verts->InsertNextCell(1, &at);
+      set(at++, light, light.Position);
+      continue;
+    }
+    polygons->InsertNextCell(static_cast<int>(light.Polygon.size()));
+    for (const radiometry::Vec3& corner : light.Polygon)
+    {
+      polygons->InsertCellPoint(at);
+      set(at++, light, corner);
+    }
   }
   output->SetPoints(points);
   output->SetVerts(verts);
+  output->SetPolys(polygons);
 
   vtkFieldData* field = output->GetFieldData();
   for (std::size_t k = 0; k < webs.size(); ++k)
@@ -145,13 +240,14 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
     WriteWeb(*webs[k], static_cast<int>(k), field);
   }
   Add<vtkStringArray>(field, "IntensityUnit", 1, 1)
-    ->SetValue(0, "point, spot: W/sr; directional: W/m^2");
+    ->SetValue(0, "point, spot: W/sr; directional: W/m^2; area: W/m^2 of exitance");
   Add<vtkIntArray>(field, "Photometric", 1, 1)->SetValue(0, photometric ? 1 : 0);
   Add<vtkDoubleArray>(field, "LuminousEfficacy", 1, 1)->SetValue(0, luminousEfficacy);
-  const auto lightNames = Add<vtkStringArray>(field, "LightNames", 1, n);
-  for (vtkIdType i = 0; i < n; ++i)
+  const auto lightNames = Add<vtkStringArray>(field, "LightNames", 1,
+    static_cast<vtkIdType>(lights.size()));
+  for (std::size_t i = 0; i < lights.size(); ++i)
   {
-    lightNames->SetValue(i, lights[i].Name);
+    lightNames->SetValue(static_cast<vtkIdType>(i), lights[i].Name);
   }
 }
 
@@ -189,11 +285,12 @@ std::vector<radiometry::LightRecord> ReadLights(
   vtkDataArray* attenuation = find(names::Attenuation, 3);
   vtkDataArray* enabled = find(names::LightEnabled, 1);
   vtkDataArray* attached = find(names::AttachedTo, 1);
+  vtkDataArray* twoSided = find(names::LightTwoSided, 1);
   vtkDataArray* intensity = sized(names::Intensity);
   if (n > 0 && !intensity)
   {
     throw InputError(prefix + names::Intensity, -1, "missing",
-      "a point array of lights (W/sr; directional: W/m^2)");
+      "a point array of lights (W/sr; directional, area: W/m^2)");
   }
   if (intensity && intensity->GetNumberOfComponents() != 1 &&
     intensity->GetNumberOfComponents() != bands)
@@ -208,41 +305,7 @@ std::vector<radiometry::LightRecord> ReadLights(
       array->GetComponent(i, 2) };
   };
   WebReader webs(input, prefix);
-  std::vector<radiometry::LightRecord> lights(static_cast<std::size_t>(n));
-  for (vtkIdType i = 0; i < n; ++i)
-  {
-    radiometry::LightRecord& light = lights[i];
-    const double kind = type ? type->GetComponent(i, 0) : 0.0;
-    if (kind == 3.0 || kind == 4.0)
-    {
-      throw InputError(prefix + names::LightType, i, kind,
-        "0 point, 1 spot or 2 directional (area and environment lights are not available in this "
-        "version; an emitting surface is, by EmittedExitance)");
-    }
-    if (kind != 0.0 && kind != 1.0 && kind != 2.0)
-    {
-      throw InputError(prefix + names::LightType, i, kind,
-        "0 point, 1 spot, 2 directional, 3 area or 4 environment");
-    }
-    light.Type = static_cast<radiometry::LightType>(static_cast<int>(kind));
-    double p[3];
-    input->GetPoint(i, p);
-    light.Position = { p[0], p[1], p[2] };
-    light.Direction = direction ? vector(direction, i) : light.Direction;
-    light.Reference = reference ? vector(reference, i) : light.Reference;
-    light.Web = web ? webs.At(web->GetComponent(i, 0), i) : nullptr;
-    light.Intensity.resize(static_cast<std::size_t>(bands));
-    for (int b = 0; b < bands; ++b)
-    {
-      light.Intensity[b] =
-        intensity->GetComponent(i, intensity->GetNumberOfComponents() == 1 ? 0 : b);
-    }
-    light.SpotCutoff = cutoff ? cutoff->GetComponent(i, 0) : light.SpotCutoff;
-    light.SpotInnerCutoff = inner ? inner->GetComponent(i, 0) : light.SpotInnerCutoff;
-    light.SpotExponent = exponent ? exponent->GetComponent(i, 0) : light.SpotExponent;
-    light.Attenuation = attenuation ? vector(attenuation, i) : light.Attenuation;
-    light.Enabled = !enabled || enabled->GetComponent(i, 0) != 0.0;
-    light.AttachedTo = attached ? static_cast<int>(attached->GetComponent(i, 0)) : 0;
+  const auto validate = [&](const radiometry::LightRecord& light, vtkIdType i) {
     try
     {
       radiometry::Validate(light, i);
@@ -251,6 +314,69 @@ std::vector<radiometry::LightRecord> ReadLights(
     {
       throw InputError(prefix + error.Array, error.Index, error.Value, error.Expected);
     }
+  };
+  // What every kind of light has.
+  const auto begin = [&](vtkIdType i, radiometry::LightType kind) {
+    radiometry::LightRecord light;
+    light.Type = kind;
+    light.Position = PointOf(input, i);
+    light.Attenuation = attenuation ? vector(attenuation, i) : light.Attenuation;
+    light.Intensity.resize(static_cast<std::size_t>(bands));
+    for (int b = 0; b < bands; ++b)
+    {
+      light.Intensity[b] =
+        intensity->GetComponent(i, intensity->GetNumberOfComponents() == 1 ? 0 : b);
+    }
+    light.Enabled = !enabled || enabled->GetComponent(i, 0) != 0.0;
+    light.AttachedTo = attached ? static_cast<int>(attached->GetComponent(i, 0)) : 0;
+    return light;
+  };
+  std::vector<radiometry::LightRecord> lights;
+  for (vtkIdType i = 0; i < n; ++i)
+  {
+    const double kind = type ? type->GetComponent(i, 0) : 0.0;
+    if (kind == 3.0)
+    {
+      continue;
+    }
+    if (kind == 4.0)
+    {
+      throw InputError(prefix + names::LightType, i, kind,
+        "0 point, 1 spot, 2 directional or 3 area (environment lights are not available in this "
+        "version)");
+    }
+    if (kind != 0.0 && kind != 1.0 && kind != 2.0)
+    {
+      throw InputError(prefix + names::LightType, i, kind,
+        "0 point, 1 spot, 2 directional, 3 area or 4 environment");
+    }
+    radiometry::LightRecord light =
+      begin(i, static_cast<radiometry::LightType>(static_cast<int>(kind)));
+    light.Direction = direction ? vector(direction, i) : light.Direction;
+    light.Reference = reference ? vector(reference, i) : light.Reference;
+    light.Web = web ? webs.At(web->GetComponent(i, 0), i) : nullptr;
+    light.SpotCutoff = cutoff ? cutoff->GetComponent(i, 0) : light.SpotCutoff;
+    light.SpotInnerCutoff = inner ? inner->GetComponent(i, 0) : light.SpotInnerCutoff;
+    light.SpotExponent = exponent ? exponent->GetComponent(i, 0) : light.SpotExponent;
+    validate(light, i);
+    lights.push_back(std::move(light));
+  }
+  for (const AreaCell& cell : FindAreaCells(input, type, prefix))
+  {
+    radiometry::LightRecord light = begin(cell.Points.front(), radiometry::LightType::Area);
+    for (const vtkIdType p : cell.Points)
+    {
+      light.Polygon.push_back(PointOf(input, p));
+      if (!radiometry::IsFinite(light.Polygon.back()))
+      {
+        throw InputError(prefix + "Points", p, "not finite", "finite coordinates");
+      }
+    }
+    light.TwoSided = twoSided && twoSided->GetComponent(cell.Points.front(), 0) != 0.0;
+    validate(light, cell.Points.front());
+    radiometry::TriangulatePolygon(
+      light.Polygon, (prefix + "Polygons").c_str(), static_cast<long long>(cell.Index));
+    lights.push_back(std::move(light));
   }
   return lights;
 }

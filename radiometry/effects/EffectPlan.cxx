@@ -4,6 +4,7 @@
 #include "radiometry/visibility/Convexity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace radiometry
@@ -28,9 +29,15 @@ bool AnyOn(const std::vector<std::uint8_t>& flags)
   return std::any_of(flags.begin(), flags.end(), [](std::uint8_t f) { return f != 0; });
 }
 
-/// True when every finite light lies before the plane of every triangle.
+/// True when every light is finite and lies before the plane of every triangle, area lights perhaps on
+/// it.
 bool LightsInside(const Scene& scene)
 {
+  double extent = 0.0;
+  for (const Vec3& p : scene.Points)
+  {
+    extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
+  }
   for (const Light& light : scene.Lights)
   {
     if (!light.Enabled)
@@ -46,9 +53,13 @@ bool LightsInside(const Scene& scene)
     for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
     {
       const Triangle3 v = scene.TriangleAt(t);
-      const Vec3 n = AreaNormal2(v);
-      if (std::any_of(places.begin(), places.end(),
-            [&](const Vec3& p) { return Dot(n, p - v[0]) <= 0.0; }))
+      const Vec3 n = Normalized(AreaNormal2(v));
+      // A panel that lies on a surface is not hidden by it.
+      const double least = light.Type == LightType::Area ? -1e-12 * extent : 0.0;
+      if (std::any_of(places.begin(), places.end(), [&](const Vec3& p) {
+            const double height = Dot(n, p - v[0]);
+            return least < 0.0 ? height < least : height <= 0.0;
+          }))
       {
         return false;
       }

@@ -126,6 +126,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   const bool freePoints = std::any_of(
     points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectAbilities abilities;
+  abilities.Emission = true;
   abilities.Transmission = false; // beams do not ask for it yet
   EffectPlan plan(scene, options.Switches, abilities, freePoints);
   const OcclusionScene occluders(scene);
@@ -137,6 +138,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   direct.SpotShape = plan.Simulates(Effect::SpotShape);
   direct.Attenuation = plan.Simulates(Effect::Attenuation);
   direct.Transmission = plan.Simulates(Effect::Transmission);
+  direct.Emission = plan.Simulates(Effect::Emission);
   direct.Threads = options.Threads;
 
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;

@@ -140,6 +140,23 @@ void Validate(const LightRecord& light, long long index)
     throw InputError(names::Attenuation, index, Text(light.Attenuation),
       "no coefficient below zero and at least one above");
   }
+  if (light.Type == LightType::Area)
+  {
+    if (light.Polygon.size() < 3)
+    {
+      throw InputError("Polygons", index, static_cast<double>(light.Polygon.size()),
+        "at least 3 corners of an area light");
+    }
+    if (!(light.Attenuation == Vec3{ 0.0, 0.0, 1.0 }))
+    {
+      throw InputError(names::Attenuation, index, Text(light.Attenuation),
+        "(0, 0, 1) for an area light: it has no other fall-off");
+    }
+    for (const Vec3& corner : light.Polygon)
+    {
+      finite("Polygons", corner);
+    }
+  }
   if (light.AttachedTo < 0 || light.AttachedTo > 2)
   {
     throw InputError(names::AttachedTo, index, light.AttachedTo, "0 scene, 1 object or 2 camera");
