@@ -21,7 +21,7 @@ constexpr double DroppedShare = 0.1;
 /// A value below this share of the unshadowed one is not resolved any finer.
 constexpr double DarkestShare = 0.01;
 /// Parts of a source that one sample of a patch may look at.
-constexpr int WorkASample = 8;
+constexpr int WorkASample = 2;
 
 /// A polygon's part before the plane of another.
 ConvexPolygon Before(const ConvexPolygon& polygon, const Vec3& n, const Vec3& through)

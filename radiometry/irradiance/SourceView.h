@@ -44,9 +44,9 @@ public:
     const std::vector<std::int32_t>* inside, int work, std::uint64_t key) const;
 
   /// The most triangles whose shadows are cut out one by one.
-  static constexpr std::size_t MostCut = 32;
+  static constexpr std::size_t MostCut = 192;
   /// The most triangles among which a proof is looked for.
-  static constexpr std::size_t MostProof = 512;
+  static constexpr std::size_t MostProof = 1024;
 
   const Blockers* GetBlockers() const { return this->Blocking; }
   const AreaSources& GetSources() const { return this->Sources; }
