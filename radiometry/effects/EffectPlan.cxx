@@ -117,7 +117,9 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
     {
       any = true;
       spots = spots || light.Type == LightType::Spot;
-      legacy = legacy || (light.Type != LightType::Directional && !light.InverseSquare());
+      legacy = legacy ||
+        (light.Type != LightType::Directional && light.Type != LightType::Environment &&
+          !light.InverseSquare());
       environment = environment || light.Type == LightType::Environment;
     }
   }
@@ -161,7 +163,7 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
 }
 
 void EffectPlan::Bound(
-  const Scene& scene, double peak, double peakBack, double spot, double attenuation)
+  const Scene& scene, double peak, double peakBack, double spot, double attenuation, double sky)
 {
   const double infinite = std::numeric_limits<double>::infinity();
   const Materials& optics = scene.Optics;
@@ -191,7 +193,7 @@ void EffectPlan::Bound(
     orNothing(transmitted, transmitted * (direct + emitted) + passing),      // Transmission
     peakBack,                                                                // BackFaces
     orNothing(emitted, reflectance < 1.0 ? emitted / (1.0 - reflectance) : infinite), // Emission
-    infinite,                                                                // Environment
+    orNothing(sky, reflectance < 1.0 ? sky / (1.0 - reflectance) : infinite), // Environment
     spot,                                                                    // SpotShape
     attenuation                                                              // Attenuation
   };

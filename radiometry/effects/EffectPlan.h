@@ -79,7 +79,9 @@ public:
   /// `peak`: the greatest irradiance by direct light that any cell could get, nothing in the way
   /// (W/m^2, strongest band); `peakBack` the same of back faces; `spot` and `attenuation` the
   /// greatest change of a cell's unshadowed irradiance by those effects.
-  void Bound(const Scene& scene, double peak, double peakBack, double spot, double attenuation);
+  /// `sky`: the greatest irradiance that environment lights can give.
+  void Bound(const Scene& scene, double peak, double peakBack, double spot, double attenuation,
+    double sky = 0.0);
 
 private:
   std::vector<EffectDecision> Decisions;

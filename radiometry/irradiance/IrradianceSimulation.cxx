@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/IrradianceSimulation.h"
 
+#include "radiometry/irradiance/SkyIrradiance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -115,7 +117,8 @@ void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double pe
     without(Effect::SpotShape, &DirectOptions::SpotShape, spot);
     without(Effect::Attenuation, &DirectOptions::Attenuation, attenuation);
   }
-  plan.Bound(scene, peak, peakBack, spot, attenuation);
+  const double sky = leftOut(Effect::Environment) ? GreatestSkyIrradiance(scene) : 0.0;
+  plan.Bound(scene, peak, peakBack, spot, attenuation, sky);
 }
 
 IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<SurfacePoint>& points,
@@ -127,6 +130,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
     points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectAbilities abilities;
   abilities.Emission = true;
+  abilities.Environment = true;
   abilities.Transmission = false; // beams do not ask for it yet
   EffectPlan plan(scene, options.Switches, abilities, freePoints);
   const OcclusionScene occluders(scene);
@@ -137,6 +141,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   direct.Occlusion = plan.Simulates(Effect::Occlusion);
   direct.SpotShape = plan.Simulates(Effect::SpotShape);
   direct.Attenuation = plan.Simulates(Effect::Attenuation);
+  direct.Environment = plan.Simulates(Effect::Environment);
   direct.Transmission = plan.Simulates(Effect::Transmission);
   direct.Emission = plan.Simulates(Effect::Emission);
   direct.Threads = options.Threads;

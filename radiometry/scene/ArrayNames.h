@@ -37,6 +37,7 @@ inline constexpr char SkyModel[] = "SkyModel";
 inline constexpr char SkyCoefficients[] = "SkyCoefficients";
 inline constexpr char SunDirection[] = "SunDirection";
 inline constexpr char EnvironmentMap[] = "EnvironmentMap";
+inline constexpr char GroundRadiance[] = "GroundRadiance"; // of an environment, relative
 inline constexpr char GlobalAmbient[] = "GlobalAmbient"; // field data, N bands
 inline constexpr char AttachedTo[] = "AttachedTo";
 
