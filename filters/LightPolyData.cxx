@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LightPolyData.h"
 
+#include "SkyFieldData.h"
 #include "WebFieldData.h"
 
 #include "radiometry/geometry/PolygonTriangulation.h"
@@ -215,8 +216,10 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
     twoSided->SetValue(i, light.TwoSided ? 1 : 0);
   };
   vtkIdType at = 0;
+  std::vector<vtkIdType> firstPoint; // of each light
   for (const radiometry::LightRecord& light : lights)
   {
+    firstPoint.push_back(at);
     if (!IsArea(light))
     {
       verts->InsertNextCell(1, &at);
@@ -233,6 +236,7 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
   output->SetPoints(points);
   output->SetVerts(verts);
   output->SetPolys(polygons);
+  WriteSkies(lights, firstPoint, output);
 
   vtkFieldData* field = output->GetFieldData();
   for (std::size_t k = 0; k < webs.size(); ++k)
@@ -240,7 +244,8 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
     WriteWeb(*webs[k], static_cast<int>(k), field);
   }
   Add<vtkStringArray>(field, "IntensityUnit", 1, 1)
-    ->SetValue(0, "point, spot: W/sr; directional: W/m^2; area: W/m^2 of exitance");
+    ->SetValue(0, "point, spot: W/sr; directional: W/m^2; area: W/m^2 of exitance; "
+                "environment: W/(m^2 sr)");
   Add<vtkIntArray>(field, "Photometric", 1, 1)->SetValue(0, photometric ? 1 : 0);
   Add<vtkDoubleArray>(field, "LuminousEfficacy", 1, 1)->SetValue(0, luminousEfficacy);
   const auto lightNames = Add<vtkStringArray>(field, "LightNames", 1,
@@ -305,6 +310,7 @@ std::vector<radiometry::LightRecord> ReadLights(
       array->GetComponent(i, 2) };
   };
   WebReader webs(input, prefix);
+  SkyReader skies(input, bands, prefix);
   const auto validate = [&](const radiometry::LightRecord& light, vtkIdType i) {
     try
     {
@@ -339,13 +345,7 @@ std::vector<radiometry::LightRecord> ReadLights(
     {
       continue;
     }
-    if (kind == 4.0)
-    {
-      throw InputError(prefix + names::LightType, i, kind,
-        "0 point, 1 spot, 2 directional or 3 area (environment lights are not available in this "
-        "version)");
-    }
-    if (kind != 0.0 && kind != 1.0 && kind != 2.0)
+    if (kind != 0.0 && kind != 1.0 && kind != 2.0 && kind != 4.0)
     {
       throw InputError(prefix + names::LightType, i, kind,
         "0 point, 1 spot, 2 directional, 3 area or 4 environment");
@@ -359,6 +359,10 @@ std::vector<radiometry::LightRecord> ReadLights(
     light.SpotInnerCutoff = inner ? inner->GetComponent(i, 0) : light.SpotInnerCutoff;
     light.SpotExponent = exponent ? exponent->GetComponent(i, 0) : light.SpotExponent;
     validate(light, i);
+    if (light.Type == radiometry::LightType::Environment)
+    {
+      light.Environment = skies.At(i, light);
+    }
     lights.push_back(std::move(light));
   }
   for (const AreaCell& cell : FindAreaCells(input, type, prefix))

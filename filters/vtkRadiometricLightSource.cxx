@@ -58,7 +58,7 @@ std::vector<double> vtkRadiometricLightSource::Factors() const
   {
     factors = { radiometry::units::Photometric(c, 3, 1.0) };
   }
-  else if (this->Bands == 0 && c[0] == c[1] && c[1] == c[2])
+  else if (this->Bands == 0 && c[0] == c[1] && c[1] == c[2] && this->LeastBands() == 1)
   {
     factors = { c[0] };
   }
@@ -75,6 +75,11 @@ std::vector<double> vtkRadiometricLightSource::Factors() const
     }
   }
   return factors;
+}
+
+void vtkRadiometricLightSource::AddFurther(
+  std::vector<radiometry::LightRecord>&, const std::vector<double>&)
+{
 }
 
 int vtkRadiometricLightSource::RequestData(
@@ -104,8 +109,13 @@ int vtkRadiometricLightSource::RequestData(
     {
       band *= value;
     }
-    radiometry::Validate(light);
-    WriteLights({ light }, static_cast<int>(light.Intensity.size()), photometric,
+    std::vector<radiometry::LightRecord> lights{ light };
+    this->AddFurther(lights, this->Factors());
+    for (const radiometry::LightRecord& each : lights)
+    {
+      radiometry::Validate(each);
+    }
+    WriteLights(lights, static_cast<int>(light.Intensity.size()), photometric,
       this->LuminousEfficacy, output);
   }
   catch (const radiometry::InputError& error)

@@ -105,6 +105,12 @@ protected:
   /// the factor that turns Intensity into SI per unit of efficacy-converted value; sets
   /// `photometric`. Throws radiometry::InputError.
   virtual double Describe(radiometry::LightRecord& light, bool& photometric) = 0;
+  /// Fewest bands that the subclass needs, where Bands is 0 (automatic) and Color grey.
+  virtual int LeastBands() const { return 1; }
+  /// Appends further lights to the one described (a sun to its sky), of as many bands: their
+  /// intensities are multiples of `factors`. Throws radiometry::InputError.
+  virtual void AddFurther(
+    std::vector<radiometry::LightRecord>& lights, const std::vector<double>& factors);
 
   double Position[3] = { 0.0, 0.0, 0.0 };
   double Intensity = 1.0;

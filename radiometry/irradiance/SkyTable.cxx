@@ -306,16 +306,20 @@ Vec3 SkyTable::SumOf(const Layer& layer, int row, int begin, int count) const
   return sum[this->Columns] - sum[first] + sum[last - this->Columns];
 }
 
-/// Mean cosine over a pixel, clipped at the horizon.
-double SkyTable::Pixel(const Vec3& n, const Row& row, double azimuth, double width) const
+/// Mean cosine over a pixel, clipped at the horizon; `whole`: the horizon does not cross it.
+double SkyTable::Pixel(
+  const Vec3& n, const Row& row, double azimuth, double width, bool& whole) const
 {
   const double sine = std::sin(azimuth);
   const double cosine = std::cos(azimuth);
   const double out = n.x * sine + n.y * cosine;
   const double across = n.x * cosine - n.y * sine;
-  return ClippedMean((n.z * row.Up + out * row.Out) / row.SolidAngle,
-    0.5 * width * std::fabs(across) * row.Cos,
-    0.5 * row.Height * std::fabs(n.z * row.Cos - out * row.Sin));
+  const double middle = (n.z * row.Up + out * row.Out) / row.SolidAngle;
+  const double a = 0.5 * width * std::fabs(across) * row.Cos;
+  const double b = 0.5 * row.Height * std::fabs(n.z * row.Cos - out * row.Sin);
+  // A horizon along an edge: the middle of a curved pixel is lower than that of a flat one.
+  whole = middle > 0.0 && middle >= (1.0 - 0.25 * row.Height) * (a + b);
+  return ClippedMean(middle, a, b);
 }
 
 double SkyTable::Clipped(const Vec3& n, std::size_t layer, int row, int column) const
@@ -325,9 +329,14 @@ double SkyTable::Clipped(const Vec3& n, std::size_t layer, int row, int column) 
   {
     const double azimuth = (2.0 * (c + 0.5) / this->Columns - 1.0) * Pi;
     const double flux = this->Layers[layer].Flux[static_cast<std::size_t>(row) * this->Columns + c];
-    return flux > 0.0
-      ? flux * this->Pixel(n, this->Latitudes[row], azimuth, 2.0 * Pi / this->Columns)
-      : 0.0;
+    if (!(flux > 0.0))
+    {
+      return 0.0;
+    }
+    bool whole = false;
+    const double mean =
+      this->Pixel(n, this->Latitudes[row], azimuth, 2.0 * Pi / this->Columns, whole);
+    return whole ? std::max(0.0, Dot(n, this->SumOf(this->Layers[layer], row, c, 1))) : flux * mean;
   }
   const int columns = this->Columns * this->FineColumns;
   double sum = 0.0;
@@ -342,7 +351,8 @@ double SkyTable::Clipped(const Vec3& n, std::size_t layer, int row, int column) 
       if (value > 0.0)
       {
         const double azimuth = (2.0 * (k + 0.5) / columns - 1.0) * Pi;
-        sum += value * fine.SolidAngle * this->Pixel(n, fine, azimuth, 2.0 * Pi / columns);
+        bool whole = false;
+        sum += value * fine.SolidAngle * this->Pixel(n, fine, azimuth, 2.0 * Pi / columns, whole);
       }
     }
   }
@@ -434,6 +444,17 @@ double SkyTable::Irradiance(const Vec3& normal, double* bands) const
   return 1e-12 + (sum > 0.0 ? change * crossing / sum : 0.0);
 }
 
+double HorizontalIrradiance(std::shared_ptr<const SkyRadiance> sky, int band)
+{
+  Light light;
+  light.Type = LightType::Environment;
+  light.Intensity.assign(static_cast<std::size_t>(sky->Bands()), 1.0);
+  light.Environment = std::move(sky);
+  std::vector<double> bands(light.Intensity.size());
+  SkyTable(light).Irradiance({ 0.0, 0.0, 1.0 }, bands.data());
+  return bands[band];
+}
+
 double SkyTable::TotalIntensity() const
 {
   double total = 0.0;
@@ -468,7 +489,7 @@ double SkyTable::GreatestIrradiance() const
         peak = std::max(peak, values[k]);
       }
     }
-    else
+    else if (sky.Model() == SkyModel::General)
     {
       for (std::size_t k = 0; k < this->Layers[0].Flux.size() && total > 0.0; ++k)
       {

@@ -74,7 +74,8 @@ private:
   Vec3 SumOf(const Layer& layer, int row, int begin, int count) const;
   /// Irradiance from one pixel, clipped at the horizon.
   double Clipped(const Vec3& normal, std::size_t layer, int row, int column) const;
-  double Pixel(const Vec3& normal, const Row& row, double azimuth, double width) const;
+  double Pixel(
+    const Vec3& normal, const Row& row, double azimuth, double width, bool& whole) const;
   /// Value of a fine pixel in a layer.
   double Fine(std::size_t layer, int row, int column) const;
   int Wrap(int column) const
@@ -103,6 +104,9 @@ private:
   std::vector<double> Cosines;
   std::vector<Layer> Layers;
 };
+
+/// Irradiance of a horizontal plane per unit of the sky's Intensity, in one band [sr].
+double HorizontalIrradiance(std::shared_ptr<const SkyRadiance> sky, int band = 0);
 
 /// A sky as a plane sees it: chooses directions with a density of radiance times cosine.
 class SkyView

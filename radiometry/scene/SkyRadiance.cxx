@@ -177,6 +177,17 @@ std::shared_ptr<const SkyRadiance> SkyRadiance::Map(
   return sky;
 }
 
+std::shared_ptr<const SkyRadiance> SkyRadiance::WithGround(double groundRadiance) const
+{
+  CheckGround(groundRadiance);
+  std::shared_ptr<SkyRadiance> sky(new SkyRadiance(*this));
+  if (this->Kind == SkyModel::General || this->Kind == SkyModel::TraditionalOvercast)
+  {
+    sky->Ground = groundRadiance;
+  }
+  return sky;
+}
+
 const std::array<double, 5>& SkyRadiance::TypeCoefficients(int type)
 {
   return TypeOf(type).Coefficients;
@@ -185,6 +196,11 @@ const std::array<double, 5>& SkyRadiance::TypeCoefficients(int type)
 const char* SkyRadiance::TypeName(int type)
 {
   return TypeOf(type).Name;
+}
+
+bool SkyRadiance::NeedsSun(int type)
+{
+  return TypeOf(type).Coefficients[2] != 0.0 || TypeOf(type).Coefficients[4] != 0.0;
 }
 
 double SkyRadiance::At(const Vec3& direction, int band) const

@@ -65,9 +65,14 @@ public:
   static std::shared_ptr<const SkyRadiance> Map(
     int width, int height, int bands, std::vector<double> values);
 
+  /// The same sky over a ground of that radiance, relative as the sky's; Uniform and Map have none.
+  std::shared_ptr<const SkyRadiance> WithGround(double groundRadiance) const;
+
   /// a to e of type 1 to 15 of the CIE general sky, and its description.
   static const std::array<double, 5>& TypeCoefficients(int type);
   static const char* TypeName(int type);
+  /// True where the distribution depends on where the sun is.
+  static bool NeedsSun(int type);
   static constexpr int Types = 15;
 
   SkyModel Model() const { return this->Kind; }

@@ -76,6 +76,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   EffectAbilities abilities;
   abilities.Interreflection = true;
   abilities.Emission = true;
+  abilities.Environment = true;
   const bool freePoints =
     std::any_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectPlan plan(scene, switches, abilities, freePoints);
@@ -86,6 +87,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   options.Emission = plan.Simulates(Effect::Emission);
   options.SpotShape = plan.Simulates(Effect::SpotShape);
   options.Attenuation = plan.Simulates(Effect::Attenuation);
+  options.Environment = plan.Simulates(Effect::Environment);
 
   const OcclusionScene occluders(scene);
   PlannedRadiosity out;

@@ -59,6 +59,7 @@ DirectOptions RadiosityContext::Direct(double secondsLeft) const
   o.Occlusion = this->Options.Occlusion;
   o.SpotShape = this->Options.SpotShape;
   o.Attenuation = this->Options.Attenuation;
+  o.Environment = this->Options.Environment;
   o.Threads = this->Options.Threads;
   return o;
 }

@@ -49,6 +49,7 @@ struct RadiosityOptions
   bool Emission = true;
   bool SpotShape = true;
   bool Attenuation = true;
+  bool Environment = true;
   int Threads = 0; // 0: all
   std::uint64_t Seed = 0;
 };

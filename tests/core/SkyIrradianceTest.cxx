@@ -116,18 +116,18 @@ TEST(SkyIrradiance, OpenBoxUnderUniformSkyByViewFactors)
   Scene scene = mesh.ToScene();
   scene.Lights = { SkyLight(SkyRadiance::Uniform()) };
   DirectOptions options;
-  options.RelativeTolerance = 0.005;
+  options.RelativeTolerance = 0.01;
   const DirectResult r = Compute(scene, options);
   double floor = 0.0, wall = 0.0, floorError = 0.0;
   for (std::size_t t = 0; t < 16; ++t)
   {
     (t < 8 ? floor : wall) += r.Irradiance[t] / 8.0;
     floorError += t < 8 ? r.Error[t] / 8.0 : 0.0;
-    EXPECT_LE(r.Error[t], 0.0051 * r.Irradiance[t]);
+    EXPECT_LE(r.Error[t], 0.0101 * r.Irradiance[t]);
   }
   EXPECT_NEAR(floor, Pi * 0.199824895698387, 0.003 * floor);
   EXPECT_NEAR(wall, Pi * 0.200043776075403, 0.003 * wall);
-  EXPECT_LT(floorError, 0.0051 * floor);
+  EXPECT_LT(floorError, 0.0101 * floor);
 }
 
 TEST(SkyIrradiance, InfiniteCanyon)

@@ -5,6 +5,7 @@
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/irradiance/SkyTable.h"
 #include "radiometry/scene/InputError.h"
+#include "radiometry/scene/SolarPosition.h"
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,62 @@ TEST(SkyRadiance, BadSkiesAreNamed)
   EXPECT_EQ(array([&] { SkyRadiance::General({ 1, -1, 0, -1, 0 }, { 0, 0, 0 }); }),
     "SunDirection -1");
   EXPECT_EQ(array([&] { SkyRadiance::TypeCoefficients(16); }), "SkyType -1");
+}
+
+TEST(SolarPosition, PublishedValues)
+{
+  // Reda and Andreas, NREL/TP-560-34302, table A5.1: zenith 50.11162, azimuth 194.34024 degrees.
+  PlaceAndTime when;
+  when.Latitude = 39.742476;
+  when.Longitude = -105.1786;
+  when.Year = 2003;
+  when.Month = 10;
+  when.Day = 17;
+  when.Hour = 12.0 + 30.0 / 60.0 + 30.0 / 3600.0;
+  when.TimeZone = -7.0;
+  const SunAngles angles = SolarPosition(when);
+  EXPECT_NEAR(angles.Altitude, 90.0 - 50.11162, 0.01);
+  EXPECT_NEAR(angles.Azimuth, 194.34024, 0.01);
+}
+
+TEST(SolarPosition, SeasonsAndBadDates)
+{
+  // At an equinox the noon sun stands at the co-latitude, at the June solstice 23.44 degrees higher.
+  PlaceAndTime when;
+  when.Latitude = 50.0;
+  when.Month = 3;
+  when.Day = 20;
+  double highest = -90.0;
+  for (int k = 0; k <= 200; ++k)
+  {
+    when.Hour = 11.0 + 0.01 * k;
+    highest = std::max(highest, SolarPosition(when).Altitude);
+  }
+  EXPECT_NEAR(highest, 40.0, 0.3);
+  when.Month = 6;
+  when.Day = 21;
+  for (int k = 0; k <= 200; ++k)
+  {
+    when.Hour = 11.0 + 0.01 * k;
+    highest = std::max(highest, SolarPosition(when).Altitude);
+  }
+  EXPECT_NEAR(highest, 40.0 + 23.44, 0.03);
+  when.Hour = 6.0;
+  EXPECT_LT(SolarPosition(when).Azimuth, 90.0); // in the north-east
+  when.Hour = 18.0;
+  EXPECT_GT(SolarPosition(when).Azimuth, 270.0);
+  when.Month = 2;
+  when.Day = 30;
+  EXPECT_THROW(SolarPosition(when), InputError);
+}
+
+TEST(SkyTable, HorizontalIrradianceIsConverged)
+{
+  for (int type = 1; type <= SkyRadiance::Types; ++type)
+  {
+    const auto sky = SkyRadiance::General(SkyRadiance::TypeCoefficients(type), { 0.5, -0.3, 0.35 });
+    EXPECT_NEAR(HorizontalIrradiance(sky) / Brute(*sky, { 1e-9, 0, 1 }), 1.0, 1e-6) << type;
+  }
 }
 
 TEST(SkyTable, ClosedForms)

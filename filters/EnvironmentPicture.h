@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/scene/SkyRadiance.h"
+
+#include <memory>
+#include <string>
+
+class vtkImageData;
+
+/// The lat-long map of an OpenEXR file: R, G, B as three bands, else its only channel (or Y, or the
+/// first) as one. `grey`: three bands become their luminance.
+/// Fails: radiometry::InputError naming FileName, or EnvironmentMap with pixel and value.
+std::shared_ptr<const radiometry::SkyRadiance> ReadPicture(const std::string& file, bool grey);
+
+/// The map of an image's active point scalars, a band a component (of four, the last is alpha and
+/// not used); its row 0 is the lowest.
+std::shared_ptr<const radiometry::SkyRadiance> PictureOf(vtkImageData* image, bool grey);
