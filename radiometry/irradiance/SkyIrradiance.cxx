@@ -260,7 +260,7 @@ private:
 
 int MostSamples(double relativeTolerance)
 {
-  const double wanted = 164.0 / std::max(relativeTolerance, 1e-9);
+  const double wanted = 600.0 / std::max(relativeTolerance, 1e-9);
   int samples = FirstSamples;
   while (samples < wanted && samples < (1 << 20))
   {
