@@ -191,6 +191,12 @@ PhotometricFile ReadPhotometricFile(const std::string& fileName, const Photometr
   {
     throw FileError(fileName, "intensities beyond any number");
   }
+  const std::vector<double>& rows = file.Web->GetVertical();
+  if (file.Web->GetType() == WebType::C && rows.front() > 0.0 && rows.front() < 90.0)
+  {
+    file.Assumptions.push_back(
+      "Vertical angles begin at " + Say(rows.front()) + " degrees: no light below.");
+  }
   DecideUnits(options.Units, fileName, file);
   CompareFlux(file);
   return file;

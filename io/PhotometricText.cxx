@@ -2,10 +2,10 @@
 #include "io/PhotometricText.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <locale>
 #include <sstream>
 
 namespace radiometry::io
@@ -161,11 +161,11 @@ bool PhotometricText::IsNumber(std::string text, double& value)
   {
     return false;
   }
-  // strtod would follow the language of the system.
-  std::istringstream in(text.front() == '+' ? text.substr(1) : text);
-  in.imbue(std::locale::classic());
-  in >> value;
-  return !in.fail() && in.peek() == std::char_traits<char>::eof() && std::isfinite(value);
+  // Not strtod, which would follow the language of the system.
+  const char* first = text.data() + (text.front() == '+' ? 1 : 0);
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(first, last, value);
+  return error == std::errc() && end == last && std::isfinite(value);
 }
 
 PhotometricNumbers::PhotometricNumbers(const PhotometricText& text, std::size_t firstLine)
@@ -207,15 +207,23 @@ bool PhotometricNumbers::Token(std::string& token)
 
 double PhotometricNumbers::Next(const std::string& what)
 {
+  return this->Next(what, 0, 0);
+}
+
+double PhotometricNumbers::Next(const std::string& what, std::size_t k, std::size_t count)
+{
+  const auto whole = [&] {
+    return count == 0 ? what : what + " " + std::to_string(k + 1) + " of " + std::to_string(count);
+  };
   std::string token;
   if (!this->Token(token))
   {
-    this->Text.Fail(this->Text.Lines(), "the file ends where " + what + " should stand");
+    this->Text.Fail(this->Text.Lines(), "the file ends where " + whole() + " should stand");
   }
   double value = 0.0;
   if (!PhotometricText::IsNumber(token, value))
   {
-    this->Fail("\"" + token.substr(0, 40) + "\" where " + what + " should stand");
+    this->Fail("\"" + token.substr(0, 40) + "\" where " + whole() + " should stand");
   }
   return value;
 }
@@ -238,8 +246,7 @@ std::vector<double> PhotometricNumbers::Next(std::size_t count, const std::strin
   std::vector<double> values;
   for (std::size_t k = 0; k < count; ++k)
   {
-    values.push_back(
-      this->Next(what + " " + std::to_string(k + 1) + " of " + std::to_string(count)));
+    values.push_back(this->Next(what, k, count));
   }
   return values;
 }

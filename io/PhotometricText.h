@@ -51,6 +51,7 @@ public:
   [[noreturn]] void Fail(const std::string& what) const { this->Text.Fail(this->LastLine, what); }
 
 private:
+  double Next(const std::string& what, std::size_t k, std::size_t count);
   bool Token(std::string& token);
 
   const PhotometricText& Text;

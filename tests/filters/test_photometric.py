@@ -8,6 +8,7 @@ import tempfile
 import numpy as np
 from checks import Errors, array, cell_values, close, fails, points, run_all, shared, simulation
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 from vtkradiometry import vtkIrradianceFilter, vtkPhotometricFileReader
@@ -337,6 +338,58 @@ def test_bad_files_and_properties():
     light.Update()
     light.SetFileName(good)
     assert output(light).GetNumberOfPoints() == 1
+
+
+def bilinear(values, h, v, x, y, z):
+    """The web's interpolation by its definition, for directions in the luminaire's frame."""
+    gamma = np.degrees(np.arctan2(np.hypot(x, y), -z))
+    c = np.degrees(np.arctan2(y, x)) % 360
+    i = np.clip(np.searchsorted(v, gamma, "right") - 1, 0, len(v) - 2)
+    j = np.clip(np.searchsorted(h, c, "right") - 1, 0, len(h) - 2)
+    s, t = (gamma - v[i]) / (v[i + 1] - v[i]), (c - h[j]) / (h[j + 1] - h[j])
+    low = values[j, i] + s * (values[j, i + 1] - values[j, i])
+    high = values[j + 1, i] + s * (values[j + 1, i + 1] - values[j + 1, i])
+    return np.where(gamma <= v[-1], low + t * (high - low), 0)
+
+
+def test_wild_web_behind_plates_against_brute_force():
+    random = np.random.default_rng(4)
+    h, v = np.linspace(0, 360, 25), np.linspace(0, 90, 19)
+    values = 1000 * random.random((25, 19)) ** 2
+    values[-1], values[:, 0] = values[0], 500
+    lamp = np.array((0.1, 0.05, 1.0))
+    light = reader(ies("wild.ies", values, v, h), Position=lamp)
+    plates = vtkAppendPolyData()
+    centres = random.uniform((-0.6, -0.6, 0.2), (0.6, 0.6, 0.8), (25, 3))
+    for x, y, z in centres:
+        plates.AddInputData(square(0.06, z, centre=(x, y)))
+    n, fine = 20, 30
+    floor = square(1.5, n=n)
+    f = simulation(vtkIrradianceFilter, floor, light, RelativeTolerance=0.01)
+    f.AddOccludersConnection(plates.GetOutputPort())
+    computed, error = cell_values(f, "Irradiance") * K, cell_values(f, "IrradianceError") * K
+
+    def brute(parts, plates=centres):
+        """Means over parts x parts points a cell."""
+        at = (np.arange(n * parts) + 0.5) / (n * parts) * 3 - 1.5
+        x, y = np.meshgrid(at, at)
+        dx, dy, dz = x - lamp[0], y - lamp[1], -lamp[2]
+        r2 = dx**2 + dy**2 + dz**2
+        e = bilinear(values, h, v, dx, dy, dz) * -dz / r2**1.5
+        for px, py, pz in plates:
+            t = (lamp[2] - pz) / lamp[2]
+            hit = (np.abs(lamp[0] + t * dx - px) < 0.06) & (np.abs(lamp[1] + t * dy - py) < 0.06)
+            e[hit] = 0
+        return e.reshape(n, parts, n, parts).mean(axis=(1, 3)).reshape(-1)
+
+    reference = brute(fine)
+    # Edges parallel to the rows of points are off by up to one row, on either side of a shadow.
+    doubt = 2 / fine * brute(fine, ()) + 1e-3 * reference.mean()
+    difference = np.abs(computed - reference)
+    assert (difference <= error + doubt).mean() >= 0.99
+    assert np.median(difference) < 2e-3 * reference.mean()
+    close(computed.mean(), reference.mean(), relative=1e-3)
+    assert (error <= 0.0101 * computed + 1e-9 * computed.max()).all()
 
 
 def test_reader_choice():
