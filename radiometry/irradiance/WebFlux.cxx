@@ -63,24 +63,22 @@ struct WebFlux::Corner
 /// A great-circle arc a cos s + t sin s, s in [0, Length], in the grid's axes.
 struct WebFlux::Edge
 {
-  Vec3 A, T;
+  Vec3 A, T, Normal;
   double Length;
   double Lift;    // of the pole over the arc's plane: cosine to its normal
   double Rise;    // greatest cos(theta) on the circle
   double Closest; // s there
   double Least, Greatest; // theta on the arc
 
-  Edge(const Vec3& from, const Vec3& to)
-    : A(Normalized(from))
+  Edge(const Vec3& start, const Vec3& normal, double length)
+    : A(start)
+    , T(Cross(normal, start))
+    , Normal(normal)
+    , Length(length)
+    , Lift(normal.z)
+    , Rise(std::hypot(A.z, T.z))
+    , Closest(std::atan2(T.z, A.z))
   {
-    const Vec3 m = Cross(from, to - from); // keeps its digits for short arcs
-    const double sine = radiometry::Length(m);
-    this->Length = std::atan2(sine, Dot(from, to));
-    const Vec3 normal = sine > 0.0 ? m / sine : Vec3{};
-    this->T = Cross(normal, this->A);
-    this->Lift = normal.z;
-    this->Rise = std::hypot(this->A.z, this->T.z);
-    this->Closest = std::atan2(this->T.z, this->A.z);
   }
   /// The theta that the arc reaches, from those of its ends and its nearest points to the poles.
   void Reach(double atStart, double atEnd)
@@ -110,7 +108,8 @@ struct WebFlux::Sum
   bool AtPole;   // Theta is 0 or pi
   double Flux = 0.0;
   double Gross = 0.0; // the sum of the pieces' sizes
-  double Peak = 0.0;  // greatest value of the cells that the rim passes
+  double Rounding = 0.0;
+  double Peak = 0.0; // greatest value of the cells that the rim passes
 };
 
 WebFlux::WebFlux(std::shared_ptr<const CandelaWeb> web, const Vec3& axis, const Vec3& reference)
@@ -293,44 +292,61 @@ void WebFlux::AddPiece(const Edge& edge, double from, double to, Sum& sum) const
     const double* v = &this->Grid.Value[j * n + middle.I - 1];
     sum.Peak = std::max({ sum.Peak, v[0], v[1], m > 1 ? v[n] : 0.0, m > 1 ? v[n + 1] : 0.0 });
   }
-  const auto integrand = [&](const Vec3& d) {
-    const double r2 = d.x * d.x + d.y * d.y;
-    const double theta = std::atan2(std::sqrt(r2), d.z);
-    double g = this->Column(j, middle.I, theta, sum);
-    if (m > 1)
+  const auto g = [&](double theta, double psi) {
+    const double first = this->Column(j, middle.I, theta, sum);
+    if (m == 1)
     {
-      const double psi = std::remainder(std::atan2(d.y, d.x) - middle.Psi, 2.0 * Pi);
-      const double t = (middle.Psi + psi - psi0) * perPsi;
-      g += t * (this->Column(j + 1, middle.I, theta, sum) - g);
+      return first;
     }
-    return r2 > 0.0 ? g / r2 : 0.0;
+    const double t = (middle.Psi + std::remainder(psi - middle.Psi, 2.0 * Pi) - psi0) * perPsi;
+    return first + t * (this->Column(j + 1, middle.I, theta, sum) - first);
   };
   const double mid = std::remainder(0.5 * (from + to) - edge.Closest, 2.0 * Pi);
-  const bool nearFirst = std::fabs(mid) < 0.25 * Pi;
-  const bool nearOther = std::fabs(mid) > 0.75 * Pi;
+  const bool low = std::fabs(edge.Lift) < 0.7; // else the arc stays away from both poles
+  const bool nearFirst = low && std::fabs(mid) < 0.25 * Pi;
+  const bool nearOther = low && std::fabs(mid) > 0.75 * Pi;
   double piece = 0.0;
   if (!sum.AtPole || (!nearFirst && !nearOther))
   {
+    // d psi = (pole . normal)/sin^2(theta) ds
     const double reach =
       sum.AtPole ? 0.7 : std::max(middle.Sine - 0.5 * (to - from), 0.1 * middle.Sine);
-    piece = GaussPieces(from, to, reach, [&](double s) { return integrand(edge.At(s)); });
+    piece = edge.Lift * GaussPieces(from, to, reach, [&](double s) {
+      const Vec3 d = edge.At(s);
+      const double r2 = d.x * d.x + d.y * d.y;
+      return r2 > 0.0 ? g(std::atan2(std::sqrt(r2), d.z), std::atan2(d.y, d.x)) / r2 : 0.0;
+    });
   }
   else
   {
-    // s = atan(sin(delta) sinh t) from where the arc passes a pole at an angle delta: what is
-    // crowded there is spread evenly, d psi = dt/cosh t.
-    const double centre = 0.5 * (from + to) - (nearFirst ? mid : mid - std::copysign(Pi, mid));
-    const double delta = std::max(std::fabs(edge.Lift), 1e-13);
+    // With tan s = sin(delta) sinh t from where the arc passes a pole at an angle delta:
+    // tan theta = tan(delta) cosh t, psi = psi there +- atan(sinh t), d psi = +- dt/cosh t: what is
+    // crowded at the pole is spread evenly.
+    // The same number for every piece of the arc: their ends must meet.
+    const double centre =
+      edge.Closest + Pi * std::round((0.5 * (from + to) - edge.Closest) / Pi);
+    const double delta = std::max(std::fabs(edge.Lift), 1e-20);
+    const double tangent = delta / edge.Rise;
+    const double turn = std::copysign(1.0, edge.Lift);
+    const double toward = nearFirst ? -turn : turn;
+    const double psiThere = std::atan2(toward * edge.Normal.y, toward * edge.Normal.x);
     const double t0 = std::asinh(std::tan(from - centre) / delta);
     const double t1 = std::asinh(std::tan(to - centre) / delta);
-    piece = GaussPieces(t0, t1, 0.5 * Pi, [&](double t) {
-      const double tangent = delta * std::sinh(t);
-      const double speed = delta * std::cosh(t) / (1.0 + tangent * tangent);
-      return speed * integrand(edge.At(centre + std::atan(tangent)));
+    piece = turn * GaussPieces(t0, t1, 0.5 * Pi, [&](double t) {
+      const double cosh = std::cosh(t);
+      const double fromPole = std::atan(tangent * cosh);
+      return g(nearFirst ? fromPole : Pi - fromPole, psiThere + turn * std::atan(std::sinh(t))) / cosh;
     });
   }
-  sum.Flux += edge.Lift * piece;
-  sum.Gross += std::fabs(edge.Lift * piece);
+  sum.Flux += piece;
+  sum.Gross += std::fabs(piece);
+  if (nearFirst || nearOther)
+  {
+    // Rounding turns what the arc crosses by 1e-16/delta about the pole: of second order where the
+    // web is continuous.
+    const double turned = std::min(4e-16 / std::max(std::fabs(edge.Lift), 4e-16), 1.0);
+    sum.Rounding += std::fabs(piece) * (this->Grid.Seamless ? turned * turned : turned);
+  }
 }
 
 /// Where the arc crosses lines of the grid (and, near a pole, changes its way of integration).
@@ -429,7 +445,14 @@ double WebFlux::OnPolygon(const Vec3* polygon, std::size_t count, double& error)
   bool oneCell = true;
   for (std::size_t k = 0; k < n; ++k)
   {
-    edges.emplace_back(local[k], local[(k + 1) % n]);
+    // In the scene's axes, where coordinates may be exact: short and nearly straight arcs keep their
+    // digits.
+    const Vec3& from = polygon[k];
+    const Vec3& to = polygon[(k + 1) % n];
+    const Vec3 m = Cross(from, to - from);
+    const double area = Length(m);
+    const Vec3 normal = area > 0.0 ? this->Sign * this->ToGrid(m / area) : Vec3{};
+    edges.emplace_back(Normalized(local[k]), normal, std::atan2(area, Dot(from, to)));
     edges[k].Reach(corners[k].Theta, corners[(k + 1) % n].Theta);
     around += edges[k].Length;
     sine = std::min(sine, corners[k].Sine);
@@ -450,7 +473,7 @@ double WebFlux::OnPolygon(const Vec3* polygon, std::size_t count, double& error)
   {
     return this->Sign * this->InCell(local.data(), n, corners[0], size, sine, error);
   }
-  const double facing = SolidAngle(local.data(), n) < 0.0 ? -1.0 : 1.0;
+  const double facing = this->Sign * (SolidAngle(polygon, n) < 0.0 ? -1.0 : 1.0);
   Sum sum = this->StartOf(edges.data(), n, corners[0], clear, facing);
   for (std::size_t k = 0; k < n; ++k)
   {
@@ -466,7 +489,7 @@ double WebFlux::OnPolygon(const Vec3* polygon, std::size_t count, double& error)
       }
     }
   }
-  error += 2e-13 * sum.Gross + 1e-15 * around * sum.Peak;
+  error += 2e-13 * sum.Gross + sum.Rounding + 1e-15 * around * sum.Peak;
   const double flux = -this->Sign * sum.Flux;
   return flux * (this->Sign * facing) > 0.0 ? flux : 0.0;
 }

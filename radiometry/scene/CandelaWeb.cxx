@@ -296,6 +296,9 @@ void CandelaWeb::MakePolar()
     }
     grid.Below[j * n + n - 1] = sum;
   }
+  grid.Seamless = grid.Closed &&
+    std::equal(grid.Value.begin(), grid.Value.begin() + static_cast<std::ptrdiff_t>(n),
+      grid.Value.end() - static_cast<std::ptrdiff_t>(n));
   this->Flux = m == 1 ? 2.0 * units::Pi * grid.Below[n - 1] : 0.0;
   for (std::size_t j = 0; j + 1 < m; ++j)
   {

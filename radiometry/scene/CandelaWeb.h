@@ -74,6 +74,7 @@ public:
     Vec3 AxisX, AxisY, Pole;      // psi = 0, psi = 90 degrees, theta = 0, in the luminaire's frame
     double Handedness = 1.0;      // of AxisX, AxisY, Pole
     bool Closed = false;          // psi goes round
+    bool Seamless = false;        // and its last values are its first
 
     std::size_t Thetas() const { return this->Theta.size(); }
     std::size_t Psis() const { return this->Psi.size(); }
