@@ -92,4 +92,27 @@ void BoxTree::Build(
   }
 }
 
+std::vector<std::int32_t> BoxTree::Groups(std::int32_t most) const
+{
+  std::vector<std::int32_t> first;
+  const auto total = static_cast<std::int32_t>(this->Items.size());
+  // Halves as Build makes them.
+  const auto split = [&](const auto& self, std::int32_t begin, std::int32_t end) -> void {
+    if (end - begin <= most || end - begin <= LeafSize)
+    {
+      first.push_back(begin);
+      return;
+    }
+    const std::int32_t middle = begin + (end - begin) / 2;
+    self(self, begin, middle);
+    self(self, middle, end);
+  };
+  if (total > 0)
+  {
+    split(split, 0, total);
+  }
+  first.push_back(total);
+  return first;
+}
+
 } // namespace radiometry

@@ -51,6 +51,14 @@ public:
   template <typename Reaches, typename VisitItem>
   bool Visit(const Reaches& reaches, const VisitItem& visit) const
   {
+    return this->VisitNodes(
+      [&](std::int32_t node) { return reaches(this->Nodes[node].Bounds); }, visit);
+  }
+
+  /// The same with `reaches(node)`, the number of a node in [0, Size()).
+  template <typename Reaches, typename VisitItem>
+  bool VisitNodes(const Reaches& reaches, const VisitItem& visit) const
+  {
     if (this->Nodes.empty())
     {
       return true;
@@ -62,7 +70,7 @@ public:
     {
       const std::int32_t at = stack[--top];
       const Node& node = this->Nodes[at];
-      if (!reaches(node.Bounds))
+      if (!reaches(at))
       {
         continue;
       }
@@ -85,13 +93,22 @@ public:
     return true;
   }
 
-private:
   struct Node
   {
     Box3 Bounds;
     std::int32_t First = 0; // leaf: first item; inner: the second child (the first is the next node)
     std::int32_t Count = 0; // leaf: items; inner: 0
   };
+  std::size_t Size() const { return this->Nodes.size(); }
+  const Node& At(std::int32_t node) const { return this->Nodes[node]; }
+  /// The items in the order of the leaves: neighbours in space are neighbours in it. A leaf holds
+  /// [First, First + Count).
+  const std::vector<std::int32_t>& Order() const { return this->Items; }
+  /// The greatest subtrees of at most `most` items, as ranges of Order: the first item of each,
+  /// and the number of items at the end.
+  std::vector<std::int32_t> Groups(std::int32_t most) const;
+
+private:
   void Build(const std::vector<Box3>& boxes, std::int32_t begin, std::int32_t end, std::size_t at);
 
   std::vector<Node> Nodes;

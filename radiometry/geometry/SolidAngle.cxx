@@ -15,12 +15,28 @@ struct HalfTangent
   double Scale;
 };
 
+/// The length, without the cost of guarding against overflow where there is none.
+double Norm(const Vec3& a)
+{
+  const double l2 = LengthSquared(a);
+  return l2 > 1e-280 && l2 < 1e280 ? std::sqrt(l2) : Length(a);
+}
+
+/// atan(x): the series for small x.
+double Atan(double x)
+{
+  const double x2 = x * x;
+  return x2 < 1e-4
+    ? x * (1.0 - x2 * (1.0 / 3.0 - x2 * (1.0 / 5.0 - x2 * (1.0 / 7.0 - x2 * (1.0 / 9.0)))))
+    : std::atan(x);
+}
+
 /// `normal` is that of the triangle, of any length: (b - a) x (c - a).
 HalfTangent MakeHalfTangent(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal)
 {
-  const double la = Length(a);
-  const double lb = Length(b);
-  const double lc = Length(c);
+  const double la = Norm(a);
+  const double lb = Norm(b);
+  const double lc = Norm(c);
   return { -Dot(a, normal),
     la * lb * lc + Dot(a, b) * lc + Dot(b, c) * la + Dot(c, a) * lb, la * lb * lc };
 }
@@ -95,7 +111,8 @@ double SolidAngle(const Vec3* polygon, std::size_t count, const Vec3& from)
     const Vec3& c = polygon[k];
     const HalfTangent t =
       MakeHalfTangent(a - from, b - from, c - from, Cross(b - a, c - a));
-    const double half = std::atan2(t.Triple, t.Sum);
+    const double half =
+      t.Sum > NearLimit * t.Scale ? Atan(t.Triple / t.Sum) : std::atan2(t.Triple, t.Sum);
     // Both lose digits there: this form of its denominator's, the other of pi's (a sliver).
     if (t.Sum < NearLimit * t.Scale && std::fabs(half) * t.Scale > std::hypot(t.Sum, t.Triple))
     {

@@ -1,96 +1,225 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/BeamIrradiance.h"
 
-#include "radiometry/geometry/Horizon.h"
-#include "radiometry/irradiance/ShadowCutter.h"
+#include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/PatchBlock.h"
+#include "radiometry/irradiance/PatchClusters.h"
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <memory>
 #include <numeric>
+#include <tbb/enumerable_thread_specific.h>
 
 namespace radiometry
 {
 namespace
 {
 
-/// How far inside its triangles a vertex asks for the light, as a share of the way to the centroid.
-constexpr double NudgeShare = 1.0 / 64.0;
+/// How far a round goes: lights asked one by one in a block, parts a patch may be cut into for each.
+struct Round
+{
+  std::size_t Lights;
+  int Work;
+};
+constexpr std::size_t AllLights = std::numeric_limits<std::size_t>::max();
 
-constexpr double Epsilon = std::numeric_limits<double>::epsilon();
+/// Rounds of growing effort on what is not yet good enough. With many lights the first ones ask
+/// some of them only; with a time budget they begin with very few.
+std::vector<Round> PlanRounds(std::size_t lights, bool hurried)
+{
+  std::vector<Round> rounds;
+  int work = 1;
+  for (std::size_t some = hurried ? 8 : 64; 2 * some < lights; some *= 8)
+  {
+    rounds.push_back({ some, work });
+    work = std::min(512, 8 * work);
+  }
+  for (work = rounds.empty() ? 1 : 64; work <= 4096; work *= work == 1 ? 64 : 8)
+  {
+    rounds.push_back({ AllLights, work });
+  }
+  return rounds;
+}
 
-/// The enabled lights of a scene, ready to be asked.
-class LightSet
+/// The patches' share of a run, round by round.
+class BeamRun
 {
 public:
-  LightSet(const Scene& scene, const OcclusionScene& occluders, const DirectOptions& options,
-    const StageProgress& stage)
+  BeamRun(const Scene& scene, const OcclusionScene& occluders, const std::vector<Patch>& patches,
+    const DirectOptions& options, const BeamLights& lights, DirectResult& result)
+    : Patches(patches)
+    , Options(options)
+    , Lights(lights)
+    , Result(result)
+    , Bands(static_cast<std::size_t>(result.Bands))
+    , Areas(patches.size())
+    , Clusters(scene, occluders, patches, options.Threads)
+    , Peaks(this->Clusters.Size(), 0.0)
+    , Dropped(lights.Size() > 1 ? patches.size() : 0, 0.0f)
+    , Open(patches.size(), 1)
+    , Blocks([&, extent = Extent(scene)] {
+      return std::make_unique<Worker>(scene, lights, patches, options, extent);
+    })
   {
-    for (const Light& light : scene.Lights)
+    this->Todo.resize(this->Clusters.Size());
+    std::iota(this->Todo.begin(), this->Todo.end(), 0u);
+    if (options.SecondsLeft > 0.0)
     {
-      if (light.Enabled && light.Type != LightType::Area && light.Type != LightType::Environment)
+      // Spread over the scene, so that what is done in time is a picture of all of it.
+      std::stable_sort(this->Todo.begin(), this->Todo.end(), [](std::uint32_t a, std::uint32_t b) {
+        return Hash64(a) < Hash64(b);
+      });
+    }
+  }
+
+  void Run(const StageProgress& stage, ConvergenceRecord* record)
+  {
+    const std::vector<Round> rounds =
+      PlanRounds(this->Lights.Size(), this->Options.SecondsLeft > 0.0);
+    const std::int64_t before = this->Result.Rays;
+    const double span = stage.End - stage.Begin;
+    for (std::size_t r = 0; r < rounds.size() && !this->Todo.empty() && !this->Expired; ++r)
+    {
+      StageProgress part = stage;
+      part.Begin = stage.Begin + span * static_cast<double>(r) / static_cast<double>(rounds.size());
+      part.End =
+        stage.Begin + span * static_cast<double>(r + 1) / static_cast<double>(rounds.size());
+      std::vector<std::uint8_t> open(this->Todo.size(), 0);
+      ParallelFor(
+        this->Todo.size(), this->Options.Threads, part,
+        [&](std::size_t k) {
+          if (this->Options.SecondsLeft > 0.0 && this->Clock.Elapsed() > this->Options.SecondsLeft)
+          {
+            this->Expired = true;
+          }
+          if (r == 0 || !this->Expired)
+          {
+            open[k] = this->Compute(this->Todo[k], rounds[r], r == 0) ? 1 : 0;
+          }
+        },
+        1e-5 * static_cast<double>(std::min(rounds[r].Lights, this->Lights.Size())));
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < this->Todo.size(); ++k)
       {
-        this->Sources.push_back(
-          std::make_unique<SourceFlux>(light, options.SpotShape, options.Attenuation));
+        this->Todo[kept] = this->Todo[k];
+        kept += open[k];
+      }
+      this->Todo.resize(kept);
+      this->Result.Rays = before + this->Rays;
+      RecordDirect(record, this->Result, this->Areas, "direct light");
+    }
+    this->Result.TimedOut = this->Result.TimedOut || this->Expired;
+    if (!this->Peaks.empty())
+    {
+      this->Result.PeakUnshadowed += *std::max_element(this->Peaks.begin(), this->Peaks.end());
+    }
+    double dropped = 0.0;
+    double most = 0.0;
+    for (const float d : this->Dropped)
+    {
+      dropped += d;
+      most = std::max(most, static_cast<double>(d));
+    }
+    this->Result.DroppedPeak += most;
+    this->Result.DroppedMean += dropped / static_cast<double>(this->Patches.size());
+  }
+
+private:
+  struct Worker
+  {
+    Worker(const Scene& scene, const BeamLights& lights, const std::vector<Patch>& patches,
+      const DirectOptions& options, double extent)
+      : Block(scene, lights, patches, options, extent)
+      , Sum(lights.Tree, scene.Optics.Bands)
+    {
+    }
+    PatchBlock Block;
+    LightSum Sum;
+    std::vector<std::uint8_t> Active;
+  };
+
+  /// Returns true when some patch of the cluster is not yet good enough.
+  bool Compute(std::size_t cluster, const Round& round, bool first)
+  {
+    Worker& worker = *this->Blocks.local();
+    PatchBlock& block = worker.Block;
+    const std::uint32_t* ids = this->Clusters.Begin(cluster);
+    block.Load(ids, this->Clusters.End(cluster));
+    block.Work = round.Work;
+    worker.Active.assign(block.Size(), 0);
+    for (std::size_t i = 0; i < block.Size(); ++i)
+    {
+      this->Areas[ids[i]] = block.PatchArea(i);
+      worker.Active[i] = block.PatchArea(i) > 0.0 && this->Open[ids[i]] != 0 ? 1 : 0;
+      // What was too much by so much before must be smaller by that, and a little more, now.
+      block.Factor[i] =
+        first ? 1.0 : 0.7 / std::clamp(this->Excess(ids[i]), 1.0, 1e3);
+    }
+    block.Blind = first && this->Expired;
+    LightEffort effort;
+    effort.Lights = block.Blind ? std::min<std::size_t>(4, round.Lights) : round.Lights;
+    effort.RelativeTolerance = this->Options.RelativeTolerance;
+    effort.AbsoluteTolerance = this->Options.AbsoluteTolerance;
+    LightSum& sum = worker.Sum;
+    this->Rays += sum.Compute(block, block.Bounds(), block.Size(), worker.Active.data(), effort,
+      Hash64(ids[0], round.Lights));
+    bool open = false;
+    for (std::size_t i = 0; i < block.Size(); ++i)
+    {
+      this->Open[ids[i]] = 0;
+      if (worker.Active[i] == 0)
+      {
+        continue;
+      }
+      const std::size_t at = ids[i] * this->Bands;
+      std::copy_n(&sum.Value[i * this->Bands], this->Bands, &this->Result.Irradiance[at]);
+      std::copy_n(&sum.Error[i * this->Bands], this->Bands, &this->Result.Error[at]);
+      if (!this->Dropped.empty())
+      {
+        this->Dropped[ids[i]] = static_cast<float>(sum.Dropped[i]);
+      }
+      // An error that is rounding only cannot be made smaller.
+      if (sum.Uncertain[i] != 0 && this->Excess(ids[i]) > 1.0)
+      {
+        this->Open[ids[i]] = 1;
+        open = true;
       }
     }
-    this->Outlines.resize(this->Size());
-    this->Cutters.resize(this->Size());
-    if (options.Occlusion && !scene.Triangles.empty() && this->Size() > 0)
-    {
-      StageProgress lines = stage;
-      lines.End = 0.5 * (stage.Begin + stage.End);
-      this->Lines = &occluders.Lines(scene, options.Threads, lines);
-    }
-    StageProgress outlines = stage;
-    outlines.Begin = 0.5 * (stage.Begin + stage.End);
-    ParallelFor(
-      this->Size(), options.Threads, outlines,
-      [&](std::size_t k) {
-        if (this->Lines)
-        {
-          this->Outlines[k] =
-            std::make_unique<Silhouettes>(scene, *this->Lines, this->Sources[k]->GetLight());
-        }
-        this->Cutters[k] = std::make_unique<ShadowCutter>(
-          *this->Sources[k], this->Outlines[k].get(), occluders);
-      },
-      2e-8 * static_cast<double>(scene.Triangles.size()) + 1e-6);
+    this->Peaks[cluster] = std::max(this->Peaks[cluster], sum.PeakUnshadowed);
+    return open;
   }
-  std::size_t Size() const { return this->Sources.size(); }
 
-  const ShadowLines* Lines = nullptr; // null: nothing hides anything
-  std::vector<std::unique_ptr<SourceFlux>> Sources;
-  std::vector<std::unique_ptr<Silhouettes>> Outlines;
-  std::vector<std::unique_ptr<ShadowCutter>> Cutters;
-};
-
-double Magnitude(const std::vector<double>& intensity)
-{
-  return intensity.empty() ? 0.0 : *std::max_element(intensity.begin(), intensity.end());
-}
-
-/// The largest coordinate that the scene's numbers were computed with.
-double Extent(const Scene& scene)
-{
-  double extent = Length(scene.Origin);
-  for (const Vec3& p : scene.Points)
+  /// The greatest ratio of a patch's error to what is allowed.
+  double Excess(std::uint32_t patch) const
   {
-    extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
+    double excess = 0.0;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      const double error = this->Result.Error[patch * this->Bands + b];
+      const double allowed = std::max(this->Options.AbsoluteTolerance,
+        this->Options.RelativeTolerance * this->Result.Irradiance[patch * this->Bands + b]);
+      excess = std::max(excess, error > 0.0 ? (allowed > 0.0 ? error / allowed : 1e300) : 0.0);
+    }
+    return excess;
   }
-  return extent;
-}
 
-/// True when rounding hides on which side of a point's plane the light is.
-bool InPlane(const SourceFlux& source, const SurfacePoint& p, double extent)
-{
-  const Light& light = source.GetLight();
-  const double height = source.Directional() ? -Dot(p.Normal, light.Direction)
-                                             : Dot(p.Normal, light.Position - p.Point);
-  const double reach = source.Directional() ? 1.0 : Length(light.Position - p.Point) + extent;
-  return height <= 4.0 * Epsilon * reach;
-}
+  const std::vector<Patch>& Patches;
+  const DirectOptions& Options;
+  const BeamLights& Lights;
+  DirectResult& Result;
+  std::size_t Bands;
+  std::vector<double> Areas;
+  PatchClusters Clusters;
+  std::vector<double> Peaks;    // of each cluster, nothing in the way
+  std::vector<float> Dropped;   // of each patch: the bound on lights left out
+  std::vector<std::uint8_t> Open; // of each patch: not yet good enough
+  std::vector<std::uint32_t> Todo; // clusters
+  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> Blocks;
+  std::atomic<std::int64_t> Rays{ 0 };
+  std::atomic<bool> Expired{ false };
+  const ConvergenceRecord Clock;
+};
 
 } // namespace
 
@@ -99,237 +228,21 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
   ConvergenceRecord* record, DirectResult& result)
 {
   const ConvergenceRecord clock;
-  const int bands = result.Bands;
   StageProgress preparing = stage;
   preparing.End = stage.Begin + 0.1 * (stage.End - stage.Begin);
-  const LightSet lights(scene, occluders, options, preparing);
+  const BeamLights lights(scene, occluders, options, true, preparing);
   if (lights.Size() == 0 || patches.empty())
   {
     return;
   }
-
-  std::vector<double> areas(patches.size());
-  for (std::size_t i = 0; i < patches.size(); ++i)
+  DirectOptions left = options;
+  if (options.SecondsLeft > 0.0)
   {
-    areas[i] = Area(patches[i].Corners);
+    left.SecondsLeft = std::max(1e-9, options.SecondsLeft - clock.Elapsed());
   }
-  const double extent = Extent(scene);
-  const std::int64_t before = result.Rays;
-  std::atomic<std::int64_t> rays{ 0 };
-  std::atomic<bool> expired{ false };
-  std::vector<std::uint8_t> open(patches.size(), 1);
-  std::vector<double> unshadowed(patches.size(), 0.0);
-
-  // `hasty`: no time is left to ask what is hidden; anything from none to all may be lit.
-  const auto compute = [&](std::size_t i, int work, bool hasty) {
-    const Patch& patch = patches[i];
-    double* value = &result.Irradiance[i * bands];
-    double* error = &result.Error[i * bands];
-    std::fill(value, value + bands, 0.0);
-    std::fill(error, error + bands, 0.0);
-    open[i] = 0;
-    const double area = areas[i];
-    if (!(area > 0.0))
-    {
-      return;
-    }
-    const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
-    double size = std::numeric_limits<double>::infinity(); // the least height
-    for (int k = 0; k < 3; ++k)
-    {
-      size = std::min(
-        size, 2.0 * area / Length(patch.Corners[(k + 1) % 3] - patch.Corners[k]));
-    }
-    // Of the closed forms, and of coordinates of that extent on a patch of that size.
-    const double rounding = Epsilon * (16.0 + extent / size);
-
-    // Strongest light first: what it gives sets the scale of what the others may be wrong by.
-    struct Share
-    {
-      std::size_t Light;
-      double Flux;
-      double Quadrature;
-    };
-    std::vector<Share> shares;
-    for (std::size_t k = 0; k < lights.Size(); ++k)
-    {
-      double quadrature = 0.0;
-      const SourceFlux& source = *lights.Sources[k];
-      const double flux = source.OnPolygon(patch.Corners.data(), 3, normal, quadrature);
-      const PlaneSide side = source.Directional()
-        ? FindSide(patch.Corners, Dot(normal, source.GetLight().Direction), extent)
-        : FindSide(patch.Corners, normal, source.GetLight().Position, extent);
-      for (int b = 0; b < bands && side == PlaneSide::Unknown; ++b)
-      {
-        error[b] += source.GetLight().Intensity[b] * (flux / area); // nothing, or that much
-      }
-      if (side != PlaneSide::Known)
-      {
-        continue;
-      }
-      if (flux > 0.0)
-      {
-        shares.push_back({ k, flux, quadrature });
-      }
-    }
-    const auto strength = [&](const Share& s) {
-      return s.Flux * Magnitude(lights.Sources[s.Light]->GetLight().Intensity);
-    };
-    std::stable_sort(shares.begin(), shares.end(),
-      [&](const Share& a, const Share& b) { return strength(a) > strength(b); });
-
-    for (int b = 0; b < bands; ++b)
-    {
-      double sum = 0.0;
-      for (const Share& share : shares)
-      {
-        sum += lights.Sources[share.Light]->GetLight().Intensity[b] * (share.Flux / area);
-      }
-      unshadowed[i] = std::max(unshadowed[i], sum);
-    }
-
-    double lit = 0.0; // W, strongest band
-    for (const Share& share : shares)
-    {
-      const Light& light = lights.Sources[share.Light]->GetLight();
-      const double magnitude = Magnitude(light.Intensity);
-      if (magnitude <= 0.0)
-      {
-        continue;
-      }
-      const double basis = std::max(lit, 0.25 * share.Flux * magnitude);
-      const double allowed =
-        0.5 * std::max(options.RelativeTolerance * basis, options.AbsoluteTolerance * area) /
-        magnitude;
-      static const std::vector<Segment3> none;
-      LitFlux flux;
-      if (hasty && lights.Lines)
-      {
-        flux = { 0.5 * share.Flux, 0.5 * share.Flux, 0, false };
-      }
-      else
-      {
-        flux = lights.Cutters[share.Light]->Flux(patch, normal, share.Flux,
-          lights.Lines ? lights.Lines->Crossings(patch.Triangle) : none, allowed, work);
-      }
-      flux.Error += share.Quadrature * (flux.Value / share.Flux);
-      rays += flux.Rays;
-      lit += flux.Value * magnitude;
-      open[i] |= flux.Exact || flux.Error <= allowed ? 0 : 1;
-      for (int b = 0; b < bands; ++b)
-      {
-        value[b] += light.Intensity[b] * (flux.Value / area);
-        error[b] += light.Intensity[b] * ((flux.Error + rounding * flux.Value) / area);
-      }
-    }
-  };
-
-  // Rounds of growing effort on what is not yet good enough.
-  constexpr int efforts[] = { 1, 64, 512, 4096 };
-  constexpr int rounds = static_cast<int>(std::size(efforts));
-  std::vector<std::size_t> todo(patches.size());
-  std::iota(todo.begin(), todo.end(), std::size_t{ 0 });
-  for (int round = 0; round < rounds && !todo.empty() && !expired; ++round)
-  {
-    StageProgress part = stage;
-    const double begin = round == 0 ? 0.1 : 0.5 + 0.5 * (round - 1) / (rounds - 1);
-    const double end = round == 0 ? 0.5 : 0.5 + 0.5 * round / (rounds - 1);
-    part.Begin = stage.Begin + begin * (stage.End - stage.Begin);
-    part.End = stage.Begin + end * (stage.End - stage.Begin);
-    ParallelFor(
-      todo.size(), options.Threads, part,
-      [&](std::size_t k) {
-        if (options.SecondsLeft > 0.0 && clock.Elapsed() > options.SecondsLeft)
-        {
-          expired = true;
-        }
-        if (round == 0 || !expired)
-        {
-          compute(todo[k], efforts[round], expired);
-        }
-      },
-      5e-6 * static_cast<double>(lights.Size()));
-    todo.erase(std::remove_if(
-                 todo.begin(), todo.end(), [&](std::size_t i) { return open[i] == 0; }),
-      todo.end());
-    result.Rays = before + rays;
-    RecordDirect(record, result, areas, "direct light");
-  }
-  result.TimedOut = result.TimedOut || expired;
-  result.PeakUnshadowed += *std::max_element(unshadowed.begin(), unshadowed.end());
-}
-
-void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<SurfacePoint>& points, const DirectOptions& options,
-  const StageProgress& stage, ConvergenceRecord* record, DirectResult& result)
-{
-  const int bands = result.Bands;
-  DirectOptions plain = options;
-  plain.Occlusion = false; // no outlines: a point needs one ray a light
-  const LightSet lights(scene, occluders, plain, { stage.Listener, stage.Begin, stage.Begin, stage.Name });
-  if (lights.Size() == 0 || points.empty())
-  {
-    return;
-  }
-  const double extent = Extent(scene);
-  std::atomic<std::int64_t> rays{ 0 };
-  std::vector<double> unshadowed(points.size(), 0.0);
-  ParallelFor(
-    points.size(), options.Threads, stage,
-    [&](std::size_t i) {
-      const SurfacePoint& p = points[i];
-      RayEnd from{ p.Point, p.Triangle };
-      if (p.Triangle < 0 && options.Occlusion)
-      {
-        from.Triangle = occluders.Touching(from.Point, p.Normal, p.Rounding);
-        from.Close = from.Triangle < 0 && occluders.TooClose(from.Point);
-      }
-      for (std::size_t k = 0; k < lights.Size(); ++k)
-      {
-        const Light& light = lights.Sources[k]->GetLight();
-        const double e = lights.Sources[k]->AtPoint(p.Point, p.Normal);
-        if (!(e > 0.0) || InPlane(*lights.Sources[k], p, extent))
-        {
-          continue;
-        }
-        unshadowed[i] += e * Magnitude(light.Intensity);
-        double visible = 1.0;
-        double doubt = 0.0;
-        if (options.Occlusion && p.Around.empty())
-        {
-          ++rays;
-          visible = lights.Cutters[k]->Hidden(from) ? 0.0 : 1.0;
-        }
-        else if (options.Occlusion)
-        {
-          int asked = 0;
-          int lit = 0;
-          for (const std::int32_t t : p.Around)
-          {
-            const Triangle3 around = scene.TriangleAt(t);
-            const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
-            const Vec3 n = AreaNormal2(around);
-            if (lights.Sources[k]->InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
-            {
-              ++asked;
-              lit += lights.Cutters[k]->Hidden({ start, t }) ? 0 : 1;
-            }
-          }
-          rays += asked;
-          visible = asked > 0 ? static_cast<double>(lit) / asked : 0.0;
-          doubt = lit > 0 && lit < asked ? 0.5 : 0.0; // a shadow's edge runs through the vertex
-        }
-        for (int b = 0; b < bands; ++b)
-        {
-          result.Irradiance[i * bands + b] += light.Intensity[b] * e * visible;
-          result.Error[i * bands + b] += light.Intensity[b] * e * (doubt + 16.0 * Epsilon * visible);
-        }
-      }
-    },
-    1e-6 * static_cast<double>(lights.Size()));
-  result.Rays += rays;
-  result.PeakUnshadowed += *std::max_element(unshadowed.begin(), unshadowed.end());
-  RecordDirect(record, result, std::vector<double>(points.size(), 1.0), "direct light");
+  StageProgress running = stage;
+  running.Begin = preparing.End;
+  BeamRun(scene, occluders, patches, left, lights, result).Run(running, record);
 }
 
 } // namespace radiometry

@@ -104,6 +104,22 @@ bool ShadowCutter::Hidden(const RayEnd& from) const
     : this->Occluders.Occluded(from, { light.Position, -1, this->Close });
 }
 
+void ShadowCutter::Hidden(
+  const std::vector<RayEnd>& from, std::vector<std::uint8_t>& hidden) const
+{
+  const Light& light = this->Source.GetLight();
+  hidden.resize(from.size());
+  if (this->Source.Directional())
+  {
+    this->Occluders.OccludedDirection(from.data(), from.size(), -light.Direction, hidden.data());
+  }
+  else
+  {
+    this->Occluders.Occluded(
+      from.data(), from.size(), { light.Position, -1, this->Close }, hidden.data());
+  }
+}
+
 void ShadowCutter::Cut(const Patch& patch, const Triangle3& part,
   const std::vector<Segment3>& lines, const Vec3& normal, LitFlux& result) const
 {
@@ -158,7 +174,8 @@ void ShadowCutter::Cut(const Patch& patch, const Triangle3& part,
 }
 
 LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccluded,
-  const std::vector<Segment3>& crossings, double allowed, int work) const
+  const std::vector<Segment3>& crossings, double allowed, int work,
+  const std::vector<Segment3>* candidates) const
 {
   LitFlux result;
   if (!this->Outline)
@@ -173,7 +190,14 @@ LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccl
       this->Outline->Narrow(part.Corners, parent->Lines, part.Lines);
       return;
     }
-    part.Overfull = !this->Outline->InShaft(part.Corners, MostCandidates, part.Lines);
+    if (candidates)
+    {
+      this->Outline->Narrow(part.Corners, *candidates, part.Lines);
+    }
+    else
+    {
+      part.Overfull = !this->Outline->InShaft(part.Corners, MostCandidates, part.Lines);
+    }
     this->Outline->Narrow(part.Corners, crossings, part.Lines);
   };
 

@@ -35,12 +35,16 @@ public:
     const OcclusionScene& occluders);
 
   /// `crossings` are the lines at which other triangles cut through the patch's triangle.
-  /// `allowed` and the result are in the unit of SourceFlux::OnPolygon.
+  /// `allowed` and the result are in the unit of SourceFlux::OnPolygon. `candidates`: silhouette
+  /// segments, all in the shaft of the patch among them; null: they are searched for.
   LitFlux Flux(const Patch& patch, const Vec3& normal, double unoccluded,
-    const std::vector<Segment3>& crossings, double allowed, int work) const;
+    const std::vector<Segment3>& crossings, double allowed, int work,
+    const std::vector<Segment3>* candidates = nullptr) const;
 
   /// True when the light is hidden from a point on triangle `triangle` (-1: free).
   bool Hidden(const RayEnd& from) const;
+  /// The same for many neighbours: hidden[k] is 1 or 0.
+  void Hidden(const std::vector<RayEnd>& from, std::vector<std::uint8_t>& hidden) const;
 
 private:
   using Polygon = std::vector<Vec3>;

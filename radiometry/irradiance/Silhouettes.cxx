@@ -5,133 +5,124 @@
 
 namespace radiometry
 {
-Silhouettes::Silhouettes(const Scene& scene, const ShadowLines& lines, const Light& light)
-  : Directional(light.Type == LightType::Directional)
-  , Position(light.Position)
-  , Direction(light.Direction)
-  , Tolerance(lines.Tolerance())
+namespace
 {
-  std::vector<Box3> boxes;
-  for (const ShadowLines::Edge& e : lines.Edges)
-  {
-    const Vec3& a = scene.Points[e.A];
-    const Vec3& b = scene.Points[e.B];
-    bool silhouette = !e.Manifold || e.Opposite[1] < 0;
-    if (!silhouette)
-    {
-      // The plane through the light and the edge; silhouette unless it parts the two triangles.
-      const Vec3 toLight = this->Directional ? -this->Direction : this->Position - a;
-      const Vec3 n = Normalized(Cross(b - a, toLight));
-      const double s0 = Dot(n, scene.Points[e.Opposite[0]] - a);
-      const double s1 = Dot(n, scene.Points[e.Opposite[1]] - a);
-      const bool parted = (s0 > this->Tolerance && s1 < -this->Tolerance) ||
-        (s0 < -this->Tolerance && s1 > this->Tolerance);
-      silhouette = !parted;
-    }
-    if (silhouette)
-    {
-      Box3 box;
-      box.Add(a);
-      box.Add(b);
-      boxes.push_back(box);
-      this->Segments.push_back({ a, b });
-    }
-  }
-  this->Tree = BoxTree(boxes);
+
+/// Rounding in the unit box, with room.
+constexpr double TreeRounding = 1e-13;
+
+} // namespace
+
+Silhouettes::Silhouettes(const Scene& scene, const ShadowLines& lines, const Light& light)
+  : Geometry(scene)
+  , Lines(lines)
+  , Source(light)
+  , Directional(light.Type == LightType::Directional)
+  , InTree(this->Directional ? -light.Direction
+                             : lines.Scale * (light.Position - lines.Center))
+  , Margin(this->Directional ? TreeRounding
+                             : TreeRounding * (1.0 + std::sqrt(LengthSquared(this->InTree))))
+{
 }
 
-/// The convex hull of a triangle and the light: inside where every plane is positive.
-struct Silhouettes::Shaft
+/// True when the light sees all folds below a node from their fronts, or all from their backs: then
+/// none of them is a silhouette.
+///   n . (p - v) >= cos(spread) a . (p - v) - sin(spread) |p - v| for each normal n in the cone
+bool Silhouettes::OneSided(std::int32_t node) const
 {
-  Vec3 Normal[4];
-  double Offset[4]; // inside: Normal . x + Offset > threshold
-  int Planes = 0;
+  const ShadowLines::Cone& cone = this->Lines.Cones[node];
+  if (cone.CosSpread < 0.0f)
+  {
+    return false;
+  }
+  const Vec3 axis{ cone.Axis[0], cone.Axis[1], cone.Axis[2] };
+  if (this->Directional)
+  {
+    return std::fabs(Dot(axis, this->InTree)) * cone.CosSpread - cone.SinSpread > this->Margin;
+  }
+  const Box3& box = this->Lines.Tree.At(node).Bounds;
+  const Vec3 half = 0.5 * box.Size();
+  const Vec3 d = this->InTree - box.Center();
+  const double reach = std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y +
+    std::fabs(axis.z) * half.z;
+  const double least = std::fabs(Dot(axis, d)) - reach;
+  if (!(least > 0.0))
+  {
+    return false;
+  }
+  const double furthest = std::sqrt(LengthSquared(d)) + std::sqrt(LengthSquared(half));
+  return least * cone.CosSpread - cone.SinSpread * furthest > this->Margin;
+}
 
-  void Add(const Vec3& normal, const Vec3& through, double threshold)
-  {
-    this->Normal[this->Planes] = normal;
-    this->Offset[this->Planes] = -Dot(normal, through) - threshold;
-    ++this->Planes;
-  }
-  bool Reaches(const Box3& box) const
-  {
-    for (int k = 0; k < this->Planes; ++k)
-    {
-      const Vec3& n = this->Normal[k];
-      const double most = n.x * (n.x > 0 ? box.Max.x : box.Min.x) +
-        n.y * (n.y > 0 ? box.Max.y : box.Min.y) + n.z * (n.z > 0 ? box.Max.z : box.Min.z);
-      if (most + this->Offset[k] <= 0.0)
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-  bool Touches(const Segment3& s) const
-  {
-    double lo = 0.0;
-    double hi = 1.0;
-    for (int k = 0; k < this->Planes; ++k)
-    {
-      const double a = Dot(this->Normal[k], s.A) + this->Offset[k];
-      const double b = Dot(this->Normal[k], s.B) + this->Offset[k];
-      if (a <= 0.0 && b <= 0.0)
-      {
-        return false;
-      }
-      if (a <= 0.0)
-      {
-        lo = std::max(lo, a / (a - b));
-      }
-      else if (b <= 0.0)
-      {
-        hi = std::min(hi, a / (a - b));
-      }
-    }
-    return lo < hi;
-  }
-};
-
-Silhouettes::Shaft Silhouettes::MakeShaft(const Triangle3& t) const
+bool Silhouettes::Bounds(std::size_t edge) const
 {
-  Shaft shaft;
-  const Vec3 normal = Normalized(AreaNormal2(t));
-  // What lies on the receiver's own plane inside the triangle counts (a box standing on a floor),
-  // what lies along the shaft's sides does not (the receiver's own rim).
-  shaft.Add(normal, t[0], -this->Tolerance);
-  for (int k = 0; k < 3; ++k)
+  const std::int32_t twin = this->Lines.Across(edge);
+  if (twin < 0)
   {
-    const Vec3& a = t[k];
-    const Vec3& b = t[(k + 1) % 3];
-    const Vec3 toLight = this->Directional ? -this->Direction : this->Position - a;
-    shaft.Add(Normalized(Cross(toLight, b - a)), a, this->Tolerance);
+    return twin == ShadowLines::Always;
   }
-  return shaft;
+  // The plane through the light and the edge; silhouette unless it parts the two triangles.
+  const Scene& scene = this->Geometry;
+  const auto& mine = scene.Triangles[edge / 3];
+  const Vec3& a = scene.Points[mine[edge % 3]];
+  const Vec3& b = scene.Points[mine[(edge % 3 + 1) % 3]];
+  const Vec3 toLight = this->Directional ? -this->Source.Direction : this->Source.Position - a;
+  const Vec3 n = Normalized(Cross(b - a, toLight));
+  const double tolerance = this->Lines.Tolerance();
+  const double s0 = Dot(n, scene.Points[mine[(edge % 3 + 2) % 3]] - a);
+  const double s1 = Dot(n, scene.Points[scene.Triangles[twin / 3][(twin % 3 + 2) % 3]] - a);
+  const bool parted = (s0 > tolerance && s1 < -tolerance) || (s0 < -tolerance && s1 > tolerance);
+  return !parted;
 }
 
 bool Silhouettes::InShaft(
-  const Triangle3& triangle, std::size_t most, std::vector<Segment3>& found) const
+  const LightShaft& shaft, std::size_t most, std::vector<Segment3>& found) const
 {
-  const Shaft shaft = this->MakeShaft(triangle);
+  const LightShaft inTree = shaft.Scaled(this->Lines.Center, this->Lines.Scale);
+  const Scene& scene = this->Geometry;
   std::size_t count = 0;
-  return this->Tree.Visit([&](const Box3& box) { return shaft.Reaches(box); },
-    [&](std::int32_t s) {
-      if (shaft.Touches(this->Segments[s]))
+  return this->Lines.Tree.VisitNodes(
+    [&](std::int32_t node) {
+      return inTree.Reaches(this->Lines.Tree.At(node).Bounds) && !this->OneSided(node);
+    },
+    [&](std::int32_t t) {
+      for (std::size_t k = 0; k < 3; ++k)
       {
-        if (count++ == most)
+        const std::size_t edge = 3 * static_cast<std::size_t>(t) + k;
+        if (!this->Lines.Owns(edge))
         {
-          return false;
+          continue;
         }
-        found.push_back(this->Segments[s]);
+        const Segment3 segment{ scene.Points[scene.Triangles[t][k]],
+          scene.Points[scene.Triangles[t][(k + 1) % 3]] };
+        if (shaft.Touches(segment) && this->Bounds(edge))
+        {
+          if (count++ == most)
+          {
+            return false;
+          }
+          found.push_back(segment);
+        }
       }
       return true;
     });
 }
 
+bool Silhouettes::InShaft(
+  const Triangle3& triangle, std::size_t most, std::vector<Segment3>& found) const
+{
+  return this->InShaft(
+    LightShaft::OfTriangle(triangle, this->Source, this->Lines.Tolerance()), most, found);
+}
+
 void Silhouettes::Narrow(const Triangle3& triangle, const std::vector<Segment3>& candidates,
   std::vector<Segment3>& found) const
 {
-  const Shaft shaft = this->MakeShaft(triangle);
+  if (candidates.empty())
+  {
+    return;
+  }
+  const LightShaft shaft = LightShaft::OfTriangle(triangle, this->Source, this->Lines.Tolerance());
   for (const Segment3& s : candidates)
   {
     if (shaft.Touches(s))

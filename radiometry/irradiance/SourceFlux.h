@@ -31,6 +31,8 @@ public:
   bool InFront(const Vec3& point, const Vec3& normal) const;
 
   bool Directional() const { return this->Source.Type == LightType::Directional; }
+  /// True when attenuation other than the inverse square of physics is computed.
+  bool LegacyAttenuation() const { return this->Legacy; }
   const Light& GetLight() const { return this->Source; }
   const AxialDistribution& GetDistribution() const { return this->Distribution; }
 

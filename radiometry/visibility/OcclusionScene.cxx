@@ -33,18 +33,19 @@ using FilterContext = RTCIntersectContext;
 struct QueryContext
 {
   FilterContext Context; // first: Embree hands back its address
-  RayQuery* Query;
+  RayQuery* Queries;     // by the rays' ids
 };
 
 void Filter(const RTCFilterFunctionNArguments* args)
 {
-  RayQuery& query = *reinterpret_cast<QueryContext*>(args->context)->Query;
   for (unsigned int i = 0; i < args->N; ++i)
   {
     if (args->valid[i] == 0)
     {
       continue;
     }
+    RayQuery& query = reinterpret_cast<QueryContext*>(args->context)
+                        ->Queries[RTCRayN_id(args->ray, args->N, i)];
     const auto t = static_cast<std::int32_t>(RTCHitN_primID(args->hit, args->N, i));
     const double along = RTCRayN_tfar(args->ray, args->N, i) - EndMargin;
     const bool nearEnd =
@@ -282,7 +283,7 @@ struct OcclusionScene::Internals
     RTCRay ray;
     FillRay(ray, q, begin, end);
     QueryContext context;
-    context.Query = &q;
+    context.Queries = &q;
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context.Context);
     RTCOccludedArguments args;
@@ -323,6 +324,83 @@ struct OcclusionScene::Internals
     return this->Panes->Pass(begin > 0.0 ? From(q, begin) : q, bands);
   }
 
+  /// Rays of neighbours, eight at a time.
+  static constexpr std::size_t PacketSize = 8;
+  void OccludedPacket(RayQuery* queries, std::size_t count, std::uint8_t* hidden) const
+  {
+    alignas(32) int valid[PacketSize] = {};
+    RTCRay8 rays;
+    double ends[PacketSize] = {};
+    bool any = false;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      RayQuery& q = queries[k];
+      double begin = 0.0;
+      hidden[k] = 0;
+      if (!this->Handle || !(q.Length > 0.0) || !this->Clip(q, begin, ends[k]))
+      {
+        continue;
+      }
+      if (q.Exact)
+      {
+        hidden[k] = this->ExactClosest(q, begin, ends[k]).Triangle >= 0 ? 1 : 0;
+        continue;
+      }
+      if (begin > 0.0)
+      {
+        q = From(q, begin);
+        ends[k] -= begin;
+      }
+      RTCRay ray;
+      FillRay(ray, q, 0.0, ends[k]);
+      rays.org_x[k] = ray.org_x;
+      rays.org_y[k] = ray.org_y;
+      rays.org_z[k] = ray.org_z;
+      rays.dir_x[k] = ray.dir_x;
+      rays.dir_y[k] = ray.dir_y;
+      rays.dir_z[k] = ray.dir_z;
+      rays.tnear[k] = ray.tnear;
+      rays.tfar[k] = ray.tfar;
+      rays.time[k] = ray.time;
+      rays.mask[k] = ray.mask;
+      rays.id[k] = static_cast<unsigned int>(k);
+      rays.flags[k] = 0;
+      valid[k] = -1;
+      any = true;
+    }
+    if (!any)
+    {
+      return;
+    }
+    QueryContext context;
+    context.Queries = queries;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context.Context);
+    RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &context.Context;
+    args.filter = &Filter;
+    args.flags = static_cast<RTCRayQueryFlags>(
+      RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | RTC_RAY_QUERY_FLAG_COHERENT);
+    rtcOccluded8(valid, this->Handle, &rays, &args);
+#else
+    rtcInitIntersectContext(&context.Context);
+    context.Context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.Context.filter = &Filter;
+    rtcOccluded8(valid, this->Handle, &context.Context, &rays);
+#endif
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      if (valid[k] != 0)
+      {
+        hidden[k] = rays.tfar[k] < 0.0f ||
+            (queries[k].Ambiguous && this->ExactClosest(queries[k], 0.0, ends[k]).Triangle >= 0)
+          ? 1
+          : 0;
+      }
+    }
+  }
+
   SurfaceHit Closest(RayQuery q) const
   {
     double begin = 0.0;
@@ -354,7 +432,7 @@ struct OcclusionScene::Internals
     hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context;
-    context.Query = &q;
+    context.Queries = &q;
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context.Context);
     RTCIntersectArguments args;
@@ -523,6 +601,41 @@ bool OcclusionScene::VisibleDirection(
 bool OcclusionScene::HasPanes() const
 {
   return this->Impl->Panes != nullptr;
+}
+
+void OcclusionScene::Occluded(
+  const RayEnd* from, std::size_t count, const RayEnd& to, std::uint8_t* hidden) const
+{
+  RayQuery queries[Internals::PacketSize];
+  for (std::size_t k = 0; k < count; k += Internals::PacketSize)
+  {
+    const std::size_t n = std::min(Internals::PacketSize, count - k);
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      queries[j] = this->Impl->MakeQuery(from[k + j], to);
+    }
+    this->Impl->OccludedPacket(queries, n, hidden + k);
+  }
+}
+
+void OcclusionScene::OccludedDirection(
+  const RayEnd* from, std::size_t count, const Vec3& direction, std::uint8_t* hidden) const
+{
+  RayQuery queries[Internals::PacketSize];
+  for (std::size_t k = 0; k < count; k += Internals::PacketSize)
+  {
+    const std::size_t n = std::min(Internals::PacketSize, count - k);
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      queries[j] = this->Impl->MakeQuery(from[k + j], direction);
+    }
+    this->Impl->OccludedPacket(queries, n, hidden + k);
+  }
+}
+
+const BoxTree& OcclusionScene::Tree() const
+{
+  return this->Impl->Tree;
 }
 
 bool OcclusionScene::OccludedDirection(const RayEnd& from, const Vec3& direction) const

@@ -10,6 +10,7 @@
 namespace radiometry
 {
 
+class BoxTree;
 class ShadowLines;
 
 /// What a ray meets first.
@@ -58,6 +59,11 @@ public:
   bool VisibleDirection(const RayEnd& from, const Vec3& direction, double* bands) const;
   /// True when some triangle lets light through; the queries above but these two take it as opaque.
   bool HasPanes() const;
+  /// The same from many starts: hidden[k] is 1 where the segment from from[k] is blocked. Fastest
+  /// where neighbours in the list are neighbours in space.
+  void Occluded(const RayEnd* from, std::size_t count, const RayEnd& to, std::uint8_t* hidden) const;
+  void OccludedDirection(
+    const RayEnd* from, std::size_t count, const Vec3& direction, std::uint8_t* hidden) const;
   /// The lines at which shadows can begin or end, found when first asked for. `scene`: the one this
   /// was made of.
   const ShadowLines& Lines(
@@ -71,6 +77,9 @@ public:
   std::int32_t Touching(Vec3& point, const Vec3& normal, double rounding) const;
   /// The first triangle along a ray.
   SurfaceHit Closest(const RayEnd& from, const Vec3& direction) const;
+
+  /// The tree over the scene's triangles, in coordinates of its own.
+  const BoxTree& Tree() const;
 
 private:
   struct Internals;

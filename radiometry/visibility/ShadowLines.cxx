@@ -2,8 +2,12 @@
 #include "radiometry/visibility/ShadowLines.h"
 
 #include <algorithm>
-#include <mutex>
-#include <tbb/parallel_sort.h>
+#include <array>
+#include <atomic>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 #include <tuple>
 
 namespace radiometry
@@ -13,12 +17,91 @@ namespace
 
 /// Rounding of coordinates of size one, with a little room.
 constexpr double RoundingUnits = 2e-14;
+/// What single precision may turn an axis by.
+constexpr double AxisRounding = 3e-7;
+
+using Cone = ShadowLines::Cone;
+
+constexpr Cone Everything{ { 0.0f, 0.0f, 1.0f }, -1.0f, 0.0f };
+
+Vec3 Axis(const Cone& c)
+{
+  return { c.Axis[0], c.Axis[1], c.Axis[2] };
+}
+
+/// A cone about `axis` with this spread, a little wider; spreads of 90 degrees and more are
+/// Everything.
+Cone MakeCone(const Vec3& axis, double cosine, double sine)
+{
+  const double c = cosine - AxisRounding;
+  const double s = sine + AxisRounding;
+  if (!(c > 1e-3))
+  {
+    return Everything;
+  }
+  return { { static_cast<float>(axis.x), static_cast<float>(axis.y), static_cast<float>(axis.z) },
+    static_cast<float>(c), static_cast<float>(s) };
+}
+
+/// The cone that holds two.
+Cone Join(const Cone& a, const Cone& b)
+{
+  if (a.CosSpread < 0.0f || b.CosSpread < 0.0f)
+  {
+    return Everything;
+  }
+  const Vec3 sum = Axis(a) + Axis(b);
+  const double length = std::sqrt(LengthSquared(sum));
+  if (!(length > 0.5))
+  {
+    return Everything;
+  }
+  const Vec3 axis = sum / length;
+  double cosine = 1.0;
+  double sine = 0.0;
+  for (const Cone* c : { &a, &b })
+  {
+    const double turned = std::min(1.0, Dot(axis, Axis(*c)));
+    const double away = std::sqrt(std::max(0.0, 1.0 - turned * turned));
+    const double both = turned * c->CosSpread - away * c->SinSpread;
+    if (both < cosine)
+    {
+      cosine = both;
+      sine = turned * c->SinSpread + away * c->CosSpread;
+    }
+  }
+  return MakeCone(axis, cosine, sine);
+}
+
+bool Overlap(const Box3& a, const Box3& b)
+{
+  return a.Min.x <= b.Max.x && a.Max.x >= b.Min.x && a.Min.y <= b.Max.y && a.Max.y >= b.Min.y &&
+    a.Min.z <= b.Max.z && a.Max.z >= b.Min.z;
+}
+
+template <typename Body>
+void ForAll(std::size_t n, int threads, const Body& body)
+{
+  const int available = tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+      {
+        body(i);
+      }
+    });
+  });
+}
 
 } // namespace
 
 ShadowLines::ShadowLines(
   const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads,
   const StageProgress& stage)
+  : Tree(tree)
+  , Center(center)
+  , Scale(scale)
 {
   double extent = 0.0;
   for (const Vec3& p : scene.Points)
@@ -26,108 +109,374 @@ ShadowLines::ShadowLines(
     extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
   }
   this->Rounding = RoundingUnits * extent;
-  this->FindEdges(scene);
+  this->FindTwins(scene, threads);
   Report(stage.Listener, stage.Begin, stage.Name);
-  this->FindCrossings(scene, tree, center, scale, threads, stage);
+  this->FindCones(scene);
+  Report(stage.Listener, stage.Begin, stage.Name);
+  this->FindCrossings(scene, threads, stage);
 }
 
-void ShadowLines::FindEdges(const Scene& scene)
+/// Edges are gathered at their corner of lower number, then paired there.
+void ShadowLines::FindTwins(const Scene& scene, int threads)
 {
-  struct Half
-  {
-    std::int32_t A, B, Opposite;
+  const auto& triangles = scene.Triangles;
+  const std::size_t points = scene.Points.size();
+  const auto corner = [&](std::size_t edge, std::size_t step) {
+    return triangles[edge / 3][(edge % 3 + step) % 3];
   };
-  std::vector<Half> halves(3 * scene.Triangles.size());
-  for (std::size_t i = 0; i < scene.Triangles.size(); ++i)
-  {
-    const auto& t = scene.Triangles[i];
-    for (int k = 0; k < 3; ++k)
+  std::vector<std::atomic<std::int32_t>> counts(points + 1);
+  ForAll(triangles.size(), threads, [&](std::size_t t) {
+    for (std::size_t e = 3 * t; e < 3 * t + 3; ++e)
     {
-      const std::int32_t a = t[k];
-      const std::int32_t b = t[(k + 1) % 3];
-      halves[3 * i + k] = { std::min(a, b), std::max(a, b), t[(k + 2) % 3] };
+      counts[std::min(corner(e, 0), corner(e, 1))].fetch_add(1, std::memory_order_relaxed);
     }
-  }
-  tbb::parallel_sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
-    return std::tie(x.A, x.B, x.Opposite) < std::tie(y.A, y.B, y.Opposite);
   });
-  // Duplicate triangles count once: their shadow is one.
-  halves.erase(std::unique(halves.begin(), halves.end(),
-                 [](const Half& x, const Half& y) {
-                   return x.A == y.A && x.B == y.B && x.Opposite == y.Opposite;
-                 }),
-    halves.end());
-  this->Edges.reserve(halves.size() / 2 + 1);
-  for (std::size_t i = 0; i < halves.size();)
+  std::vector<std::int32_t> first(points + 1, 0);
+  for (std::size_t p = 0; p < points; ++p)
   {
-    std::size_t j = i + 1;
-    while (j < halves.size() && halves[j].A == halves[i].A && halves[j].B == halves[i].B)
-    {
-      ++j;
-    }
-    this->Edges.push_back({ halves[i].A, halves[i].B,
-      { halves[i].Opposite, j - i > 1 ? halves[i + 1].Opposite : -1 }, j - i <= 2 });
-    i = j;
+    first[p + 1] = first[p] + counts[p].load(std::memory_order_relaxed);
   }
-}
-
-void ShadowLines::FindCrossings(
-  const Scene& scene, const BoxTree& tree, const Vec3& center, double scale, int threads,
-  const StageProgress& stage)
-{
-  std::mutex guard; // taken only where something crosses
-  const auto search = [&](std::size_t r) {
-    const Triangle3 receiver = scene.TriangleAt(r);
-    const Vec3 n = Normalized(AreaNormal2(receiver));
-    Box3 mine;
-    for (const Vec3& p : receiver)
+  std::vector<std::int32_t> edges(3 * triangles.size());
+  ForAll(triangles.size(), threads, [&](std::size_t t) {
+    for (std::size_t e = 3 * t; e < 3 * t + 3; ++e)
     {
-      mine.Add(scale * (p - center));
+      const std::int32_t p = std::min(corner(e, 0), corner(e, 1));
+      edges[first[p] + counts[p].fetch_sub(1, std::memory_order_relaxed) - 1] =
+        static_cast<std::int32_t>(e);
     }
-    std::vector<Segment3> found;
-    const auto overlaps = [&](const Box3& box) {
-      return box.Min.x <= mine.Max.x && box.Max.x >= mine.Min.x && box.Min.y <= mine.Max.y &&
-        box.Max.y >= mine.Min.y && box.Min.z <= mine.Max.z && box.Max.z >= mine.Min.z;
+  });
+
+  const std::vector<double>& clear = scene.TriangleTransmittance;
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  const auto differ = [&](std::int32_t a, std::int32_t b) {
+    return !clear.empty() &&
+      !std::equal(clear.begin() + a / 3 * bands, clear.begin() + (a / 3 + 1) * bands,
+        clear.begin() + b / 3 * bands);
+  };
+  this->Twins.assign(3 * triangles.size(), Elsewhere);
+  ForAll(points, threads, [&](std::size_t p) {
+    const auto key = [&](std::int32_t e) {
+      const auto edge = static_cast<std::size_t>(e);
+      return std::tuple(std::max(corner(edge, 0), corner(edge, 1)), corner(edge, 2), e);
     };
-    tree.Visit(overlaps, [&](std::int32_t t) {
-      const Triangle3 other = scene.TriangleAt(t);
-      double h[3];
-      bool above = false;
-      bool below = false;
-      for (int k = 0; k < 3; ++k)
+    const auto begin = edges.begin() + first[p];
+    const auto end = edges.begin() + first[p + 1];
+    // The order in which threads gathered them does not matter after this.
+    std::sort(begin, end, [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+    for (auto e = begin; e != end;)
+    {
+      // Duplicate triangles count once: their shadow is one.
+      std::int32_t other = -1;
+      bool many = false;
+      auto next = e + 1;
+      for (; next != end && std::get<0>(key(*next)) == std::get<0>(key(*e)); ++next)
       {
-        h[k] = Dot(n, other[k] - receiver[0]);
-        above = above || h[k] > this->Rounding;
-        below = below || h[k] < -this->Rounding;
-      }
-      if (!above || !below)
-      {
-        return true; // beside the plane or only touching it: an edge marks the place
-      }
-      Vec3 ends[3];
-      int count = 0;
-      for (int k = 0; k < 3 && count < 2; ++k)
-      {
-        const double a = h[k];
-        const double b = h[(k + 1) % 3];
-        if ((a > 0.0) != (b > 0.0))
+        if (std::get<1>(key(*next)) != std::get<1>(key(*(next - 1))))
         {
-          ends[count++] = other[k] + (a / (a - b)) * (other[(k + 1) % 3] - other[k]);
+          many = other >= 0;
+          other = other < 0 ? *next : other;
+          if (many)
+          {
+            break;
+          }
         }
       }
-      if (count == 2)
+      while (next != end && std::get<0>(key(*next)) == std::get<0>(key(*e)))
       {
-        found.push_back({ ends[0], ends[1] });
+        ++next;
       }
-      return true;
-    });
-    if (!found.empty())
-    {
-      const std::lock_guard<std::mutex> lock(guard);
-      this->Cut.emplace(static_cast<std::int32_t>(r), std::move(found));
+      if (other >= 0 && !many && !differ(*e, other))
+      {
+        this->Twins[*e] = other;
+        this->Twins[other] = *e;
+      }
+      else
+      {
+        this->Twins[*e] = Always;
+      }
+      e = next;
     }
+  });
+}
+
+/// The normals of a triangle and of those beyond the edges that it stands for.
+ShadowLines::Cone ShadowLines::TriangleCone(const Scene& scene, std::int32_t t) const
+{
+  const Vec3 area2 = AreaNormal2(scene.TriangleAt(t));
+  const double length = std::sqrt(LengthSquared(area2));
+  const Triangle3 corners = scene.TriangleAt(t);
+  Cone cone = Everything;
+  const auto uncertain = [&](const Triangle3& c, double twiceArea) {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      longest = std::max(longest, LengthSquared(c[(k + 1) % 3] - c[k]));
+    }
+    // The angle by which rounding may turn the normal: rounding over the least height.
+    return 2.0 * this->Rounding * std::sqrt(longest) / twiceArea;
   };
-  ParallelFor(scene.ReceiverTriangles, threads, stage, search, 1e-6);
+  double doubt = uncertain(corners, length);
+  if (!(length > 0.0) || !(doubt < 1e-3))
+  {
+    return Everything;
+  }
+  const Vec3 normal = area2 / length;
+  cone = MakeCone(normal, 1.0 - doubt, doubt);
+  for (std::size_t e = 3 * static_cast<std::size_t>(t); e < 3 * static_cast<std::size_t>(t) + 3; ++e)
+  {
+    const std::int32_t twin = this->Twins[e];
+    if (twin == Always)
+    {
+      return Everything;
+    }
+    if (!this->Owns(e))
+    {
+      continue;
+    }
+    const auto& mine = scene.Triangles[t];
+    const auto& theirs = scene.Triangles[twin / 3];
+    const Triangle3 other = scene.TriangleAt(twin / 3);
+    const Vec3 otherArea2 = AreaNormal2(other);
+    const double otherLength = std::sqrt(LengthSquared(otherArea2));
+    doubt = uncertain(other, otherLength);
+    if (!(otherLength > 0.0) || !(doubt < 1e-3))
+    {
+      return Everything;
+    }
+    // Neighbours of one orientation run through their common edge in opposite ways.
+    const double sign = mine[e % 3] == theirs[(twin % 3 + 1) % 3] ? 1.0 : -1.0;
+    cone = Join(cone, MakeCone((sign / otherLength) * otherArea2, 1.0 - doubt, doubt));
+  }
+  return cone;
+}
+
+void ShadowLines::FindCones(const Scene& scene)
+{
+  this->Cones.resize(this->Tree.Size());
+  const auto build = [&](const auto& self, std::int32_t at, int depth) -> void {
+    const BoxTree::Node& node = this->Tree.At(at);
+    if (node.Count > 0)
+    {
+      Cone cone = this->TriangleCone(scene, this->Tree.Order()[node.First]);
+      for (std::int32_t k = 1; k < node.Count; ++k)
+      {
+        cone = Join(cone, this->TriangleCone(scene, this->Tree.Order()[node.First + k]));
+      }
+      this->Cones[at] = cone;
+      return;
+    }
+    const auto first = [&] { self(self, at + 1, depth + 1); };
+    const auto second = [&] { self(self, node.First, depth + 1); };
+    if (depth < 8)
+    {
+      tbb::parallel_invoke(first, second);
+    }
+    else
+    {
+      first();
+      second();
+    }
+    this->Cones[at] = Join(this->Cones[at + 1], this->Cones[node.First]);
+  };
+  if (!this->Tree.Empty())
+  {
+    build(build, 0, 0);
+  }
+}
+
+namespace
+{
+
+/// The line at which `other` cuts through the plane of `receiver` or stands on it with an edge,
+/// when that line touches the receiver and is there more than a point. `foot` gets the number of
+/// that edge, or -1 where it is cut through.
+bool CrossingLine(const Triangle3& receiver, const Vec3& n, const Triangle3& other, double rounding,
+  int& foot, Segment3& line)
+{
+  double h[3];
+  bool above = false;
+  bool below = false;
+  for (int k = 0; k < 3; ++k)
+  {
+    h[k] = Dot(n, other[k] - receiver[0]);
+    above = above || h[k] > rounding;
+    below = below || h[k] < -rounding;
+  }
+  const bool through = above && below;
+  foot = -1;
+  for (int k = 0; k < 3 && !through && (above || below); ++k)
+  {
+    foot = std::fabs(h[k]) <= rounding && std::fabs(h[(k + 1) % 3]) <= rounding ? k : foot;
+  }
+  if (!through && foot < 0)
+  {
+    return false; // beside the plane, or touching it in a point or all over
+  }
+  Vec3 ends[3];
+  int count = 0;
+  for (int k = 0; k < 3 && count < 2; ++k)
+  {
+    const double a = h[k];
+    const double b = h[(k + 1) % 3];
+    if (through && (a > 0.0) != (b > 0.0))
+    {
+      ends[count++] = other[k] + (a / (a - b)) * (other[(k + 1) % 3] - other[k]);
+    }
+    else if (!through && (k == foot || k == (foot + 1) % 3))
+    {
+      ends[count++] = other[k];
+    }
+  }
+  if (count < 2)
+  {
+    return false;
+  }
+  line = { ends[0], ends[1] };
+  // Within the receiver's sides, a little outside included; a mere point (a common corner) is none.
+  double lo = 0.0;
+  double hi = 1.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vec3 side = receiver[(k + 1) % 3] - receiver[k];
+    const Vec3 inward = Cross(n, side) / std::sqrt(LengthSquared(side));
+    const double a = Dot(inward, line.A - receiver[k]) + 4.0 * rounding;
+    const double b = Dot(inward, line.B - receiver[k]) + 4.0 * rounding;
+    if (a <= 0.0 && b <= 0.0)
+    {
+      return false;
+    }
+    if (a <= 0.0)
+    {
+      lo = std::max(lo, a / (a - b));
+    }
+    else if (b <= 0.0)
+    {
+      hi = std::min(hi, a / (a - b));
+    }
+  }
+  return (hi - lo) * std::sqrt(LengthSquared(line.B - line.A)) > 32.0 * rounding;
+}
+
+} // namespace
+
+/// True when a surface that stands on a plane with this edge goes on beyond the plane: then it may be
+/// neither seen to cut through the plane nor a silhouette. (What ends there is one always.)
+bool ShadowLines::GoesOn(
+  const Scene& scene, const Vec3& through, const Vec3& normal, std::int32_t edge) const
+{
+  const std::int32_t twin = this->Twins[edge];
+  if (twin < 0 || !this->Owns(static_cast<std::size_t>(edge)))
+  {
+    return false;
+  }
+  const auto height = [&](std::int32_t e) {
+    return Dot(normal, scene.Points[scene.Triangles[e / 3][(e % 3 + 2) % 3]] - through);
+  };
+  const double here = height(edge);
+  const double beyond = height(twin);
+  return (here > 0.0) != (beyond > 0.0) && std::fabs(beyond) > this->Rounding;
+}
+
+/// The tree against itself: each of its parts of some hundred triangles against all of it.
+void ShadowLines::FindCrossings(
+  const Scene& scene, int threads, const StageProgress& stage)
+{
+  const BoxTree& tree = this->Tree;
+  if (tree.Empty())
+  {
+    return;
+  }
+  std::vector<std::int32_t> parts;
+  const auto collect = [&](const auto& self, std::int32_t at, int depth) -> void {
+    const BoxTree::Node& node = tree.At(at);
+    if (node.Count > 0 || depth == 11)
+    {
+      parts.push_back(at);
+      return;
+    }
+    self(self, at + 1, depth + 1);
+    self(self, node.First, depth + 1);
+  };
+  collect(collect, 0, 0);
+
+  struct Found
+  {
+    std::int32_t Receiver;
+    Segment3 Line;
+  };
+  std::vector<std::vector<Found>> found(parts.size());
+  const auto boxOf = [&](std::int32_t t) {
+    Box3 box;
+    for (const std::int32_t p : scene.Triangles[t])
+    {
+      box.Add(scene.Points[p]);
+    }
+    return box;
+  };
+  const auto search = [&](std::size_t part) {
+    const auto pair = [&](const auto& self, std::int32_t a, std::int32_t b) -> void {
+      const BoxTree::Node& na = tree.At(a);
+      const BoxTree::Node& nb = tree.At(b);
+      if (!Overlap(na.Bounds, nb.Bounds))
+      {
+        return;
+      }
+      const bool split = na.Count == 0 &&
+        (nb.Count > 0 || LengthSquared(na.Bounds.Size()) > LengthSquared(nb.Bounds.Size()));
+      if (split)
+      {
+        self(self, a + 1, b);
+        self(self, na.First, b);
+        return;
+      }
+      if (nb.Count == 0)
+      {
+        self(self, a, b + 1);
+        self(self, a, nb.First);
+        return;
+      }
+      for (std::int32_t i = na.First; i < na.First + na.Count; ++i)
+      {
+        const std::int32_t r = tree.Order()[i];
+        if (static_cast<std::size_t>(r) >= scene.ReceiverTriangles)
+        {
+          continue;
+        }
+        const Triangle3 receiver = scene.TriangleAt(r);
+        const Box3 mine = boxOf(r);
+        const Vec3 n = Normalized(AreaNormal2(receiver));
+        for (std::int32_t j = nb.First; j < nb.First + nb.Count; ++j)
+        {
+          const std::int32_t t = tree.Order()[j];
+          Segment3 line;
+          int foot = -1;
+          if (t != r && Overlap(mine, boxOf(t)) &&
+            CrossingLine(receiver, n, scene.TriangleAt(t), this->Rounding, foot, line) &&
+            (foot < 0 || this->GoesOn(scene, receiver[0], n, 3 * t + foot)))
+          {
+            found[part].push_back({ r, line });
+          }
+        }
+      }
+    };
+    pair(pair, parts[part], 0);
+  };
+  ParallelFor(parts.size(), threads, stage, search, 1e-4);
+  for (std::vector<Found>& list : found)
+  {
+    for (const Found& f : list)
+    {
+      this->Cut[f.Receiver].push_back(f.Line);
+    }
+  }
+  if (!this->Cut.empty())
+  {
+    this->IsCut.assign(scene.Triangles.size(), 0);
+  }
+  for (const auto& cut : this->Cut)
+  {
+    this->IsCut[cut.first] = 1;
+  }
 }
 
 } // namespace radiometry

