@@ -5,6 +5,7 @@
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
 #include "radiometry/effects/EffectPlan.h"
+#include "radiometry/irradiance/ShadowPieces.h"
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
@@ -35,11 +36,12 @@ struct vtkRadiometricFilter::Result
     std::vector<double> Values;
     std::vector<double> Errors;
   };
-  std::vector<Quantity> Cells;
+  std::vector<Quantity> Cells; // by cell; by piece when there are pieces
   std::vector<Quantity> Points; // as Job::Points
   radiometry::ConvergenceRecord Convergence;
   std::vector<radiometry::EffectDecision> Effects; // by Effect
   std::vector<std::pair<std::string, double>> ErrorParts; // mean over the surface, W/m^2
   std::string Outcome;
   std::string Method; // and why
+  radiometry::ShadowPieces Pieces; // into which cells were cut; none: they were not
 };

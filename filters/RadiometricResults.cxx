@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RadiometricResults.h"
 
-#include "SceneAdapter.h"
 #include "SurfacePoints.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/Units.h"
@@ -136,13 +135,14 @@ void RadiometricResults::AddArrays(const std::vector<Result::Quantity>& quantiti
   }
 }
 
-void RadiometricResults::WriteSurface(const Result& result, const SceneAdapter& adapter,
-  const SurfacePoints& points, vtkDataObject* output, vtkDataObject* input) const
+void RadiometricResults::WriteSurface(const Result& result,
+  const std::vector<SceneAdapter::Block>& blocks, const SurfacePoints& points,
+  vtkDataObject* output, vtkDataObject* input) const
 {
   const std::vector<vtkPolyData*> leaves = MakeLeaves(output, input);
-  for (std::size_t k = 0; k < leaves.size() && k < adapter.Blocks().size(); ++k)
+  for (std::size_t k = 0; k < leaves.size() && k < blocks.size(); ++k)
   {
-    const SceneAdapter::Block& block = adapter.Blocks()[k];
+    const SceneAdapter::Block& block = blocks[k];
     const SurfacePoints::Block& carrier = points.Blocks()[k];
     vtkPolyData* leaf = leaves[k];
     leaf->ShallowCopy(carrier.Data ? carrier.Data : block.Data);

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "RadiometricJob.h"
+#include "SceneAdapter.h"
 
 #include <string>
 
-class SceneAdapter;
 class SurfacePoints;
 class vtkCompositeDataSet;
 class vtkDataObject;
@@ -28,8 +28,9 @@ public:
   {
   }
 
-  void WriteSurface(const Result& result, const SceneAdapter& adapter, const SurfacePoints& points,
-    vtkDataObject* output, vtkDataObject* input) const;
+  /// `blocks`: those of the adapter, or what became of them when cells were cut.
+  void WriteSurface(const Result& result, const std::vector<SceneAdapter::Block>& blocks,
+    const SurfacePoints& points, vtkDataObject* output, vtkDataObject* input) const;
   void WriteEffects(const Result& result, vtkTable* table) const;
   void WriteConvergence(const Result& result, vtkTable* table) const;
 

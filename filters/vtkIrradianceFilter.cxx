@@ -6,6 +6,9 @@
 
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
+#include <string>
+
 vtkStandardNewMacro(vtkIrradianceFilter);
 
 void vtkIrradianceFilter::Simulate(Job& job, Result& result)
@@ -17,6 +20,13 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   options.Threads = this->NumberOfThreads;
   options.Cells = job.WantCells;
   options.Switches = job.Switches;
+  options.RefineShadowBoundaries = this->RefineShadowBoundaries && job.WantCells;
+  options.PiecesPerCell = static_cast<std::size_t>(this->MaximumPiecesPerCell);
+  if (this->RefineShadowBoundaries && !job.WantCells)
+  {
+    vtkWarningMacro("RefineShadowBoundaries has no effect with SampleLocation Points: values are "
+                    "wanted at the points that there are.");
+  }
   radiometry::IrradianceResult computed =
     radiometry::SimulateIrradiance(job.Scene, job.Points, options, job.Progress);
 
@@ -37,4 +47,28 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   result.Convergence = std::move(computed.Convergence);
   result.Effects = std::move(computed.Effects);
   result.Outcome = computed.Outcome;
+  if (options.RefineShadowBoundaries)
+  {
+    const radiometry::ShadowPieces& pieces = computed.Pieces;
+    const auto whole = std::count(pieces.Whole.begin(), pieces.Whole.end(), 1);
+    const std::size_t cells = job.Scene.Cells - static_cast<std::size_t>(whole);
+    result.Method = std::to_string(cells) + " cells cut along the edges of shadows into " +
+      std::to_string(pieces.Size() - static_cast<std::size_t>(whole)) + " pieces";
+    if (pieces.Full > 0)
+    {
+      result.Method += "; " + std::to_string(pieces.Full) +
+        " of them reached the limit of pieces (MaximumPiecesPerCell)";
+      vtkWarningMacro(<< pieces.Full << " cells have more shadow edges than "
+                      << this->MaximumPiecesPerCell
+                      << " pieces can follow (MaximumPiecesPerCell): some run through pieces.");
+    }
+    result.Pieces = std::move(computed.Pieces);
+  }
+}
+
+void vtkIrradianceFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RefineShadowBoundaries: " << this->RefineShadowBoundaries << '\n'
+     << indent << "MaximumPiecesPerCell: " << this->MaximumPiecesPerCell << '\n';
 }

@@ -18,12 +18,35 @@ class VTKRADIOMETRYFILTERS_EXPORT vtkIrradianceFilter : public vtkRadiometricFil
 public:
   static vtkIrradianceFilter* New();
   vtkTypeMacro(vtkIrradianceFilter, vtkRadiometricFilter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// Whether cells are cut along the edges of the shadows of point, spot and directional lights, so
+  /// that a shadow's edge is geometry of output 0: convex pieces with the cell's data, their own
+  /// average, and OriginalCellIds, the number of the cell in its block. Cells that no edge crosses
+  /// stay whole. Pieces of a cell fit each other; where cells meet, one may have a corner on the
+  /// other's edge. Point data is not carried over. No effect, and a warning, with SampleLocation
+  /// Points. Default off.
+  vtkSetMacro(RefineShadowBoundaries, bool);
+  vtkGetMacro(RefineShadowBoundaries, bool);
+  vtkBooleanMacro(RefineShadowBoundaries, bool);
+  ///@}
+  ///@{
+  /// Pieces into which one cell may be cut at most; where more would be needed the largest are cut
+  /// first, the rest keeps its average, and RadiometryMethod and a warning say in how many cells.
+  /// Default 1000. Range [1, 1000000].
+  vtkSetClampMacro(MaximumPiecesPerCell, int, 1, 1000000);
+  vtkGetMacro(MaximumPiecesPerCell, int);
+  ///@}
 
 protected:
   vtkIrradianceFilter() = default;
   ~vtkIrradianceFilter() override = default;
 
   void Simulate(Job& job, Result& result) override;
+
+  bool RefineShadowBoundaries = false;
+  int MaximumPiecesPerCell = 1000;
 
 private:
   vtkIrradianceFilter(const vtkIrradianceFilter&) = delete;

@@ -3,6 +3,7 @@
 
 #include "RadiometricJob.h"
 #include "RadiometricResults.h"
+#include "RefinedSurface.h"
 #include "SceneAdapter.h"
 #include "SurfacePoints.h"
 #include "radiometry/scene/ArrayNames.h"
@@ -242,7 +243,10 @@ int vtkRadiometricFilter::RequestData(
     options << (scene.GlobalAmbient.empty() ? "0" : "");
     const RadiometricResults writer(scene.Optics.Bands,
       this->Photometric ? this->LuminousEfficacy : 0.0, this->GetClassName(), options.str());
-    writer.WriteSurface(result, adapter, points, output, input);
+    writer.WriteSurface(result,
+      result.Pieces.Size() > 0 ? RefineSurface(adapter, scene, this->MetersPerUnit, result)
+                               : adapter.Blocks(),
+      points, output, input);
     writer.WriteEffects(result, effects);
     writer.WriteConvergence(result, convergence);
   }

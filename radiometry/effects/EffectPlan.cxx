@@ -162,6 +162,13 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
     "lights carry a legacy attenuation a + b r + c r^2 other than r^2");
 }
 
+bool EffectPlan::LeavesOut() const
+{
+  return (this->Indirect && (*this)[Effect::Transmission].Present) ||
+    std::any_of(this->Decisions.begin(), this->Decisions.end(),
+      [](const EffectDecision& d) { return d.Present && !d.Simulated; });
+}
+
 void EffectPlan::Bound(
   const Scene& scene, double peak, double peakBack, double spot, double attenuation, double sky)
 {

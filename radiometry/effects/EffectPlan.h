@@ -75,6 +75,9 @@ public:
   EffectDecision& operator[](Effect effect) { return this->Decisions[static_cast<int>(effect)]; }
   bool Simulates(Effect effect) const { return (*this)[effect].Simulated; }
 
+  /// True when something has to be bounded.
+  bool LeavesOut() const;
+
   /// Gives each effect that the scene has and the run left out its bound.
   /// `peak`: the greatest irradiance by direct light that any cell could get, nothing in the way
   /// (W/m^2, strongest band); `peakBack` the same of back faces; `spot` and `attenuation` the

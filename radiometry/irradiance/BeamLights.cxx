@@ -26,8 +26,8 @@ BeamLights::BeamLights(const Scene& scene, const OcclusionScene& occluders,
   {
     this->Outlines.push_back(
       this->Lines ? std::make_unique<Silhouettes>(scene, *this->Lines, source->GetLight()) : nullptr);
-    this->Cutters.push_back(
-      std::make_unique<ShadowCutter>(*source, this->Outlines.back().get(), occluders));
+    this->Cutters.push_back(std::make_unique<ShadowCutter>(*source, this->Outlines.back().get(),
+      occluders, options.Transmission && occluders.HasPanes() ? scene.Optics.Bands : 0));
   }
   this->Tree = LightTree(this->Sources, scene.Optics.Bands);
 }

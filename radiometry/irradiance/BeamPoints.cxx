@@ -27,6 +27,75 @@ bool InPlane(const SourceFlux& source, const SurfacePoint& p, double extent)
   return height <= 4.0 * Epsilon * reach;
 }
 
+/// What of a light reaches a point.
+struct Sight
+{
+  explicit Sight(std::size_t bands)
+    : Share(bands, 1.0)
+    , Least(bands)
+    , Most(bands)
+    , One(bands)
+  {
+  }
+  std::vector<double> Share; // of each band
+  double Doubt = 0.0;        // of the share
+  int Rays = 0;
+  std::vector<double> Least, Most, One; // room
+};
+
+/// What one place sees of a light.
+void Ask(const ShadowCutter& cutter, const RayEnd& from, std::vector<double>& shares)
+{
+  if (cutter.Transmits())
+  {
+    cutter.Passing(from, shares.data());
+  }
+  else
+  {
+    std::fill(shares.begin(), shares.end(), cutter.Hidden(from) ? 0.0 : 1.0);
+  }
+}
+
+void See(const Scene& scene, const SourceFlux& source, const ShadowCutter& cutter,
+  const SurfacePoint& p, const RayEnd& from, Sight& sight)
+{
+  sight.Doubt = 0.0;
+  sight.Rays = 1;
+  if (p.Around.empty())
+  {
+    Ask(cutter, from, sight.Share);
+    return;
+  }
+  const std::size_t bands = sight.Share.size();
+  std::fill(sight.Share.begin(), sight.Share.end(), 0.0);
+  std::fill(sight.Least.begin(), sight.Least.end(), 1.0);
+  std::fill(sight.Most.begin(), sight.Most.end(), 0.0);
+  sight.Rays = 0;
+  for (const std::int32_t t : p.Around)
+  {
+    const Triangle3 around = scene.TriangleAt(t);
+    const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
+    const Vec3 n = AreaNormal2(around);
+    if (source.InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
+    {
+      ++sight.Rays;
+      Ask(cutter, { start, t }, sight.One);
+      for (std::size_t b = 0; b < bands; ++b)
+      {
+        sight.Share[b] += sight.One[b];
+        sight.Least[b] = std::min(sight.Least[b], sight.One[b]);
+        sight.Most[b] = std::max(sight.Most[b], sight.One[b]);
+      }
+    }
+  }
+  for (std::size_t b = 0; b < bands && sight.Rays > 0; ++b)
+  {
+    sight.Share[b] /= sight.Rays;
+    // A shadow's edge runs through the vertex.
+    sight.Doubt = std::max(sight.Doubt, 0.5 * (sight.Most[b] - sight.Least[b]));
+  }
+}
+
 } // namespace
 
 void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
@@ -46,6 +115,7 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
     points.size(), options.Threads, stage,
     [&](std::size_t i) {
       const SurfacePoint& p = points[i];
+      Sight sight(static_cast<std::size_t>(bands));
       RayEnd from{ p.Point, p.Triangle };
       if (p.Triangle < 0 && options.Occlusion)
       {
@@ -61,36 +131,17 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
           continue;
         }
         unshadowed[i] += e * Magnitude(light);
-        double visible = 1.0;
-        double doubt = 0.0;
-        if (options.Occlusion && p.Around.empty())
+        if (options.Occlusion)
         {
-          ++rays;
-          visible = lights.Cutters[k]->Hidden(from) ? 0.0 : 1.0;
-        }
-        else if (options.Occlusion)
-        {
-          int asked = 0;
-          int lit = 0;
-          for (const std::int32_t t : p.Around)
-          {
-            const Triangle3 around = scene.TriangleAt(t);
-            const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
-            const Vec3 n = AreaNormal2(around);
-            if (lights.Sources[k]->InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
-            {
-              ++asked;
-              lit += lights.Cutters[k]->Hidden({ start, t }) ? 0 : 1;
-            }
-          }
-          rays += asked;
-          visible = asked > 0 ? static_cast<double>(lit) / asked : 0.0;
-          doubt = lit > 0 && lit < asked ? 0.5 : 0.0; // a shadow's edge runs through the vertex
+          See(scene, *lights.Sources[k], *lights.Cutters[k], p, from, sight);
+          rays += sight.Rays;
         }
         for (int b = 0; b < bands; ++b)
         {
+          const double visible = sight.Share[b];
           result.Irradiance[i * bands + b] += light.Intensity[b] * e * visible;
-          result.Error[i * bands + b] += light.Intensity[b] * e * (doubt + 16.0 * Epsilon * visible);
+          result.Error[i * bands + b] +=
+            light.Intensity[b] * e * (sight.Doubt + 16.0 * Epsilon * visible);
         }
       }
     },

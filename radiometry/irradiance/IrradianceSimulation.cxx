@@ -47,11 +47,17 @@ std::vector<Patch> MakePatches(const Scene& scene, int side)
 FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches, int side,
   const std::vector<double>& values, const std::vector<double>& errors)
 {
-  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  return AverageOver(scene.Cells, scene.Optics.Bands, patches, side, values, errors);
+}
+
+FieldValues AverageOver(std::size_t count, int bandCount, const std::vector<Patch>& patches,
+  int side, const std::vector<double>& values, const std::vector<double>& errors)
+{
+  const auto bands = static_cast<std::size_t>(bandCount);
   FieldValues out;
-  out.Values.assign(scene.Cells * bands, 0.0);
-  out.Errors.assign(scene.Cells * bands, 0.0);
-  std::vector<double> areas(scene.Cells, 0.0);
+  out.Values.assign(count * bands, 0.0);
+  out.Errors.assign(count * bands, 0.0);
+  std::vector<double> areas(count, 0.0);
   for (const Patch& p : patches)
   {
     areas[p.Cell] += p.Side == side ? Area(p.Corners) : 0.0;
@@ -83,12 +89,7 @@ void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double pe
   DirectOptions bare;
   bare.Occlusion = false;
   bare.Threads = threads;
-  bool any = false;
-  for (int k = 0; k < EffectCount; ++k)
-  {
-    any = any || leftOut(static_cast<Effect>(k));
-  }
-  if (any && peak < 0.0)
+  if (plan.LeavesOut() && peak < 0.0)
   {
     peak = ComputeDirectIrradiance(scene, occluders, MakePatches(scene, 0), bare).PeakUnshadowed;
   }
@@ -131,7 +132,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   EffectAbilities abilities;
   abilities.Emission = true;
   abilities.Environment = true;
-  abilities.Transmission = false; // beams do not ask for it yet
+  abilities.Transmission = true;
   EffectPlan plan(scene, options.Switches, abilities, freePoints);
   const OcclusionScene occluders(scene);
 
@@ -158,18 +159,30 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   const double middle = options.Cells ? (points.empty() ? 0.98 : 0.8) : 0.02;
   if (options.Cells)
   {
-    std::vector<Patch> patches = MakePatches(scene, 0);
-    if (sides == 2)
+    std::vector<Patch> patches;
+    std::size_t items = scene.Cells;
+    double begin = 0.02;
+    if (options.RefineShadowBoundaries)
     {
-      const std::vector<Patch> backs = MakePatches(scene, 1);
+      begin = 0.3 * middle;
+      result.Pieces = CutAlongShadows(scene, occluders, direct, sides == 2, options.PiecesPerCell,
+        { monitor, 0.02, begin, "cutting along shadows" });
+      patches = MakePatches(scene, result.Pieces, sides == 2);
+      items = result.Pieces.Size();
+    }
+    else
+    {
+      patches = MakePatches(scene, 0);
+      const std::vector<Patch> backs = sides == 2 ? MakePatches(scene, 1) : std::vector<Patch>();
       patches.insert(patches.end(), backs.begin(), backs.end());
     }
     limit();
     const DirectResult r = ComputeDirectIrradiance(scene, occluders, patches, direct,
-      { monitor, 0.02, middle, "direct light" }, &result.Convergence);
+      { monitor, begin, middle, "direct light" }, &result.Convergence);
     for (int side = 0; side < sides; ++side)
     {
-      result.Cells[side] = AverageOverCells(scene, patches, side, r.Irradiance, r.Error);
+      result.Cells[side] =
+        AverageOver(items, scene.Optics.Bands, patches, side, r.Irradiance, r.Error);
     }
     timedOut = r.TimedOut;
     peak = r.PeakUnshadowed;
@@ -198,6 +211,11 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   }
   result.Outcome = timedOut ? "the time budget ended the run before every value met its tolerance"
                             : "every value met its tolerance or is as fine as can be";
+  if (result.Pieces.Full > 0)
+  {
+    result.Outcome += "; " + std::to_string(result.Pieces.Full) +
+      " cells have more shadow edges than the limit of pieces let them be cut along";
+  }
   Report(monitor, 1.0, "done");
   return result;
 }

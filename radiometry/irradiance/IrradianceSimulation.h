@@ -4,6 +4,7 @@
 #include "radiometry/accuracy/ConvergenceRecord.h"
 #include "radiometry/effects/EffectPlan.h"
 #include "radiometry/irradiance/DirectIrradiance.h"
+#include "radiometry/irradiance/ShadowPieces.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
 
@@ -21,6 +22,8 @@ struct IrradianceOptions
   double TimeBudget = 0.0;        // s; 0: none
   int Threads = 0;                // 0: all
   bool Cells = true;              // compute averages over cells
+  bool RefineShadowBoundaries = false; // over the pieces into which shadows' edges cut the cells
+  std::size_t PiecesPerCell = 1000;    // at most
   std::vector<EffectSwitch> Switches = std::vector<EffectSwitch>(EffectCount);
 };
 
@@ -33,11 +36,13 @@ struct FieldValues
 
 struct IrradianceResult
 {
-  std::array<FieldValues, 2> Cells;  // front, back (where any cell is two-sided); W/m^2
+  std::array<FieldValues, 2> Cells;  // front, back (where any cell is two-sided); W/m^2; by piece
+                                     // when shadows' edges were refined
   std::array<FieldValues, 2> Points;
   std::vector<EffectDecision> Effects;
   ConvergenceRecord Convergence;
   std::string Outcome; // what ended the run
+  ShadowPieces Pieces; // empty unless shadows' edges were refined
 };
 
 /// Direct light on a scene: plans the effects, computes what it calls for, bounds what it left out.
@@ -49,6 +54,9 @@ std::vector<Patch> MakePatches(const Scene& scene, int side);
 
 /// Area-weighted means over the patches of one side of each cell; errors of patches are independent.
 FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches, int side,
+  const std::vector<double>& values, const std::vector<double>& errors);
+/// The same where Patch::Cell numbers pieces of the surface, `count` of them.
+FieldValues AverageOver(std::size_t count, int bands, const std::vector<Patch>& patches, int side,
   const std::vector<double>& values, const std::vector<double>& errors);
 
 /// Bounds what a plan left out, from the greatest unshadowed irradiance that the run met (below 0:

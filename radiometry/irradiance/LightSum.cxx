@@ -112,6 +112,7 @@ void LightSum::AskOne(ReceiverBlock& block, std::size_t light)
     this->Basis[i] = this->Strong[i] / strength;
   }
   this->Rays += block.Ask(light, this->Active.data(), this->Basis.data(), this->Shares.data());
+  const double* tints = block.Tints();
   for (std::size_t i = 0; i < this->Count; ++i)
   {
     const LightShare& share = this->Shares[i];
@@ -124,9 +125,10 @@ void LightSum::AskOne(ReceiverBlock& block, std::size_t light)
     {
       const std::size_t at = i * this->Bands + b;
       const double intensity = this->Tree.Intensity(entry, static_cast<int>(b));
-      this->Value[at] += intensity * share.Lit;
+      const double passing = tints ? intensity * tints[at] : intensity;
+      this->Value[at] += passing * share.Lit;
       this->Open[at] += intensity * share.Open;
-      this->Error[at] += intensity * share.Systematic;
+      this->Error[at] += passing * share.Systematic;
       const double doubt = intensity * share.Doubt;
       this->Variance[at] += doubt * doubt;
     }
@@ -266,6 +268,7 @@ void LightSum::Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std:
       this->Rays +=
         block.Ask(sample.Light, this->Active.data(), this->Basis.data(), this->Shares.data());
     }
+    const double* tints = block.Tints();
     for (std::size_t i = 0; i < this->Count; ++i)
     {
       const LightShare& share = this->Shares[i];
@@ -278,8 +281,9 @@ void LightSum::Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std:
         const double weight =
           sample.Weight * this->Tree.Intensity(entry, static_cast<int>(b)) / Sets;
         const std::size_t at = i * this->Bands + b;
-        this->Sums[at * Sets + static_cast<std::size_t>(sample.Set)] += Sets * weight * share.Lit;
-        this->Error[at] += weight * share.Systematic;
+        const double passing = tints ? weight * tints[at] : weight;
+        this->Sums[at * Sets + static_cast<std::size_t>(sample.Set)] += Sets * passing * share.Lit;
+        this->Error[at] += passing * share.Systematic;
         this->Variance[at] += weight * share.Doubt * (weight * share.Doubt);
       }
     }

@@ -29,6 +29,9 @@ public:
   /// the rays traced.
   virtual std::int64_t Ask(
     std::size_t light, const std::uint8_t* active, const double* basis, LightShare* shares) = 0;
+  /// What panes left in each band of the light last asked, relative to Lit (its greatest band), by
+  /// receiver and band; null: the same in all.
+  virtual const double* Tints() const { return nullptr; }
 };
 
 /// How far a block is worked out.

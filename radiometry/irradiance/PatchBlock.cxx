@@ -47,8 +47,12 @@ PatchBlock::PatchBlock(const Scene& scene, const BeamLights& lights,
   , Patches(patches)
   , Options(options)
   , Coordinates(extent)
+  , Bands(lights.Size() > 0 && lights.Cutters[0]->Transmits()
+        ? static_cast<std::size_t>(scene.Optics.Bands)
+        : 0)
 {
   this->Factor.fill(1.0);
+  this->Shares.resize(2 * this->Bands);
 }
 
 void PatchBlock::Load(const std::uint32_t* begin, const std::uint32_t* end)
@@ -259,6 +263,7 @@ std::int64_t PatchBlock::Ask(std::size_t light, const std::uint8_t* active, cons
   const SourceFlux& source = *this->Lights.Sources[light];
   Pending now{ source, this->Lights.Outlines[light].get(), *this->Lights.Cutters[light], basis,
     Magnitude(source.GetLight()) };
+  this->Tint.assign(this->Count * this->Bands, 1.0);
   for (std::size_t i = 0; i < this->Count; ++i)
   {
     if (active[i] == 0)
@@ -408,22 +413,39 @@ bool PatchBlock::DecideTogether(Pending& now, std::size_t begin, std::size_t end
     }
     bool hidden[2] = { false, false };
     const int rays = size >= ManyPatches ? 2 : 1;
+    bool agree = true;
     for (int r = 0; r < rays; ++r)
     {
       const Patch& patch = this->Patches[this->Ids[probe[r]]];
-      hidden[r] = now.Cutter.Hidden({ Centroid(patch.Corners), patch.Triangle });
+      const RayEnd from{ Centroid(patch.Corners), patch.Triangle };
+      if (this->Bands == 0)
+      {
+        hidden[r] = now.Cutter.Hidden(from);
+        continue;
+      }
+      double* shares = &this->Shares[r == 0 ? 0 : this->Bands];
+      now.Cutter.Passing(from, shares);
+      for (std::size_t b = 0; b < this->Bands && r == 1; ++b)
+      {
+        agree = agree &&
+          std::fabs(shares[b] - this->Shares[b]) <= 1e-12 * std::max(shares[b], this->Shares[b]);
+      }
     }
     now.Rays += rays;
-    if (rays == 2 && hidden[0] != hidden[1])
+    if (rays == 2 && (hidden[0] != hidden[1] || !agree))
     {
       return false;
     }
     for (std::size_t k = begin; k < end; ++k)
     {
       const std::size_t i = this->Facing[k];
-      if (this->Piece[i] == piece)
+      if (this->Piece[i] == piece && this->Bands == 0)
       {
         this->Lit[i] = hidden[0] ? 0.0 : this->Open[i];
+      }
+      else if (this->Piece[i] == piece)
+      {
+        this->SetShares(i, this->Shares.data(), this->Open[i]);
       }
     }
   }
@@ -465,7 +487,22 @@ void PatchBlock::DecideOne(
     this->Work, complete ? &this->Lines : nullptr);
   now.Rays += flux.Rays;
   this->Lit[i] = flux.Value;
+  if (this->Bands > 0)
+  {
+    this->SetShares(i, flux.Bands.data(), 1.0);
+  }
   this->Doubt[i] = flux.Error;
+}
+
+/// A patch gets `of` times a share in each band.
+void PatchBlock::SetShares(std::size_t i, const double* shares, double of)
+{
+  const double greatest = *std::max_element(shares, shares + this->Bands);
+  this->Lit[i] = of * greatest;
+  for (std::size_t b = 0; b < this->Bands; ++b)
+  {
+    this->Tint[i * this->Bands + b] = greatest > 0.0 ? shares[b] / greatest : 1.0;
+  }
 }
 
 /// One ray for each patch that is lit or dark as a whole.
@@ -475,11 +512,20 @@ void PatchBlock::Trace(Pending& now)
   {
     return;
   }
-  now.Cutter.Hidden(this->Starts, this->Hidden);
+  if (this->Bands == 0)
+  {
+    now.Cutter.Hidden(this->Starts, this->Hidden);
+  }
   now.Rays += static_cast<std::int64_t>(this->Starts.size());
   for (std::size_t s = 0; s < this->Starts.size(); ++s)
   {
     const std::size_t i = this->StartOf[s];
+    if (this->Bands > 0)
+    {
+      now.Cutter.Passing(this->Starts[s], this->Shares.data());
+      this->SetShares(i, this->Shares.data(), this->Open[i]);
+      continue;
+    }
     this->Lit[i] = this->Hidden[s] != 0 ? 0.0 : this->Open[i];
   }
 }

@@ -40,6 +40,7 @@ public:
 
   std::int64_t Ask(std::size_t light, const std::uint8_t* active, const double* basis,
     LightShare* shares) override;
+  const double* Tints() const override { return this->Tint.empty() ? nullptr : this->Tint.data(); }
 
 private:
   static constexpr std::size_t Most = PatchClusters::MostPatches;
@@ -55,6 +56,7 @@ private:
   void DecideOne(Pending& now, std::size_t k, const std::vector<Segment3>* candidates);
   bool MakeShaft(const Pending& now, std::size_t begin, std::size_t end, LightShaft& shaft);
   void Trace(Pending& now);
+  void SetShares(std::size_t i, const double* shares, double of);
 
   const Scene& Geometry;
   const BeamLights& Lights;
@@ -93,6 +95,9 @@ private:
   std::vector<RayEnd> Starts;
   std::vector<std::uint8_t> StartOf;
   std::vector<std::uint8_t> Hidden;
+  std::size_t Bands;         // where panes let light through; 0: everything is opaque
+  std::vector<double> Tint;  // patches x bands, see Tints; empty: everything is opaque
+  std::vector<double> Shares; // of a band
 };
 
 } // namespace radiometry

@@ -88,12 +88,98 @@ struct Part
 } // namespace
 
 ShadowCutter::ShadowCutter(const SourceFlux& source, const Silhouettes* silhouettes,
-  const OcclusionScene& occluders)
+  const OcclusionScene& occluders, int bands)
   : Source(source)
   , Outline(silhouettes)
   , Occluders(occluders)
   , Close(!source.Directional() && occluders.TooClose(source.GetLight().Position))
+  , Bands(static_cast<std::size_t>(bands))
 {
+}
+
+void ShadowCutter::Passing(const RayEnd& from, double* shares) const
+{
+  const Light& light = this->Source.GetLight();
+  const bool any = this->Source.Directional()
+    ? this->Occluders.VisibleDirection(from, -light.Direction, shares)
+    : this->Occluders.Visible(from, { light.Position, -1, this->Close }, shares);
+  if (!any)
+  {
+    std::fill(shares, shares + this->Bands, 0.0);
+  }
+}
+
+/// Adds what gets to a piece all over which the same is true as at one point.
+void ShadowCutter::AddPiece(
+  const RayEnd& from, double flux, double quadrature, LitFlux& result) const
+{
+  ++result.Rays;
+  double greatest = 1.0;
+  if (this->Bands == 0)
+  {
+    greatest = this->Hidden(from) ? 0.0 : 1.0;
+    result.Value += greatest * flux;
+  }
+  else
+  {
+    static thread_local std::vector<double> shares;
+    shares.resize(this->Bands);
+    this->Passing(from, shares.data());
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      result.Bands[b] += shares[b] * flux;
+    }
+    greatest = *std::max_element(shares.begin(), shares.end());
+  }
+  result.Error += greatest * quadrature;
+}
+
+/// Adds an estimate of what gets to a part from a few well spread points of it; returns the
+/// estimate's variance.
+double ShadowCutter::AddSamples(
+  const Triangle3& corners, std::int32_t triangle, double flux, LitFlux& result) const
+{
+  static constexpr double spots[4][2] = { { 1.0 / 3, 1.0 / 3 }, { 1.0 / 6, 1.0 / 6 },
+    { 2.0 / 3, 1.0 / 6 }, { 1.0 / 6, 2.0 / 3 } };
+  static thread_local std::vector<double> shares;
+  shares.assign(4 * std::max<std::size_t>(1, this->Bands), 0.0);
+  for (int s = 0; s < 4; ++s)
+  {
+    const Vec3 p = (1.0 - spots[s][0] - spots[s][1]) * corners[0] + spots[s][0] * corners[1] +
+      spots[s][1] * corners[2];
+    if (this->Bands == 0)
+    {
+      shares[s] = this->Hidden({ p, triangle }) ? 0.0 : 1.0;
+    }
+    else
+    {
+      this->Passing({ p, triangle }, &shares[s * this->Bands]);
+    }
+  }
+  result.Rays += 4;
+  result.Exact = false;
+  const std::size_t bands = std::max<std::size_t>(1, this->Bands);
+  double greatest = 0.0;
+  for (std::size_t b = 0; b < bands; ++b)
+  {
+    double sum = 0.0;
+    double least = 1.0;
+    double most = 0.0;
+    for (int s = 0; s < 4; ++s)
+    {
+      sum += shares[s * bands + b];
+      least = std::min(least, shares[s * bands + b]);
+      most = std::max(most, shares[s * bands + b]);
+    }
+    (this->Bands == 0 ? result.Value : result.Bands[b]) += flux * 0.25 * sum;
+    // Of so many one value, the others another; four of a kind still leave room for what they did
+    // not meet.
+    const double range = most > least ? most - least : std::max(most, 1.0 - least);
+    const double met = most > least ? (sum - 4.0 * least) / range : 4.0;
+    const double share = (met + 0.5) / 5.0;
+    greatest = std::max(greatest, range * range * share * (1.0 - share) / 4.0);
+  }
+  return flux * flux * greatest;
 }
 
 bool ShadowCutter::Hidden(const RayEnd& from) const
@@ -164,12 +250,7 @@ void ShadowCutter::Cut(const Patch& patch, const Triangle3& part,
     {
       continue;
     }
-    ++result.Rays;
-    if (!this->Hidden({ Middle(piece), patch.Triangle }))
-    {
-      result.Value += flux;
-      result.Error += quadrature;
-    }
+    this->AddPiece({ Middle(piece), patch.Triangle }, flux, quadrature, result);
   }
 }
 
@@ -183,6 +264,14 @@ LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccl
     result.Value = unoccluded;
     return result;
   }
+  result.Bands.assign(this->Bands, 0.0);
+  const auto finish = [&]() -> LitFlux& {
+    if (this->Bands > 0)
+    {
+      result.Value = *std::max_element(result.Bands.begin(), result.Bands.end());
+    }
+    return result;
+  };
 
   const auto list = [&](Part& part, const Part* parent) {
     if (parent && !parent->Overfull)
@@ -208,9 +297,8 @@ LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccl
   if (whole.Lines.empty() && !whole.Overfull)
   {
     // Nothing begins or ends in the shaft: one ray tells for all of the patch.
-    result.Rays = 1;
-    result.Value = this->Hidden({ Centroid(patch.Corners), patch.Triangle }) ? 0.0 : unoccluded;
-    return result;
+    this->AddPiece({ Centroid(patch.Corners), patch.Triangle }, unoccluded, 0.0, result);
+    return finish();
   }
 
   std::priority_queue<Part> open;
@@ -257,8 +345,6 @@ LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccl
   }
 
   // What is left: a few well spread points of each part.
-  static constexpr double spots[4][2] = { { 1.0 / 3, 1.0 / 3 }, { 1.0 / 6, 1.0 / 6 },
-    { 2.0 / 3, 1.0 / 6 }, { 1.0 / 6, 2.0 / 3 } };
   double variance = 0.0;
   for (; !open.empty(); open.pop())
   {
@@ -268,22 +354,10 @@ LitFlux ShadowCutter::Flux(const Patch& patch, const Vec3& normal, double unoccl
       this->Cut(patch, part.Corners, part.Lines, normal, result);
       continue;
     }
-    int lit = 0;
-    for (const auto& s : spots)
-    {
-      const Triangle3& c = part.Corners;
-      const Vec3 p = (1.0 - s[0] - s[1]) * c[0] + s[0] * c[1] + s[1] * c[2];
-      lit += this->Hidden({ p, patch.Triangle }) ? 0 : 1;
-    }
-    result.Rays += 4;
-    result.Value += part.Flux * (0.25 * lit);
-    // Four of a kind still leave room for what they did not meet.
-    const double share = (lit + 0.5) / 5.0;
-    variance += part.Flux * part.Flux * share * (1.0 - share) / 4.0;
-    result.Exact = false;
+    variance += this->AddSamples(part.Corners, patch.Triangle, part.Flux, result);
   }
   result.Error += Deviations * std::sqrt(variance);
-  return result;
+  return finish();
 }
 
 } // namespace radiometry

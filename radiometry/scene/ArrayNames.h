@@ -53,6 +53,9 @@ inline constexpr char LuminousExposure[] = "LuminousExposure"; // its photometri
 inline constexpr char BackSuffix[] = "Back";   // IrradianceBack, ...
 inline constexpr char ErrorSuffix[] = "Error"; // IrradianceError, ...
 
+// The cell of the input that a piece of the output was cut from
+inline constexpr char OriginalCellIds[] = "OriginalCellIds";
+
 // Sensors
 inline constexpr char Normals[] = "Normals";
 // Four corners of the piece of surface that a sensor stands for (12 components)

@@ -77,6 +77,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   abilities.Interreflection = true;
   abilities.Emission = true;
   abilities.Environment = true;
+  abilities.Transmission = true;
   const bool freePoints =
     std::any_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectPlan plan(scene, switches, abilities, freePoints);
@@ -88,6 +89,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   options.SpotShape = plan.Simulates(Effect::SpotShape);
   options.Attenuation = plan.Simulates(Effect::Attenuation);
   options.Environment = plan.Simulates(Effect::Environment);
+  options.Transmission = plan.Simulates(Effect::Transmission);
 
   const OcclusionScene occluders(scene);
   PlannedRadiosity out;

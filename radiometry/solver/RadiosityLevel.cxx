@@ -60,6 +60,7 @@ DirectOptions RadiosityContext::Direct(double secondsLeft) const
   o.SpotShape = this->Options.SpotShape;
   o.Attenuation = this->Options.Attenuation;
   o.Environment = this->Options.Environment;
+  o.Transmission = this->Options.Transmission;
   o.Threads = this->Options.Threads;
   return o;
 }

@@ -50,6 +50,7 @@ struct RadiosityOptions
   bool SpotShape = true;
   bool Attenuation = true;
   bool Environment = true;
+  bool Transmission = true; // of the lights' light; what surfaces send stops at panes
   int Threads = 0; // 0: all
   std::uint64_t Seed = 0;
 };

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What panes let through along a ray: layers, shared edges, folds, coincident faces, far places.
+#include "radiometry/irradiance/IrradianceSimulation.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include "tests/core/TestScenes.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 using namespace radiometry;
@@ -208,6 +210,343 @@ TEST(Transmission, EndsOnPanesAndNextToThem)
     EXPECT_TRUE(occluders.Visible({ Centroid(scene.TriangleAt(5)), 5 },
       { Vec3{ 0.1 * size, 0.2 * size, size } - scene.Origin, -1 }, &band));
     EXPECT_EQ(band, 1.0);
+  }
+}
+
+// ---- Direct light through panes ----
+
+/// A floor (cells first) with panes above it; every pane triangle lets through its share.
+struct Room
+{
+  test::Mesh Mesh;
+  std::size_t Floor = 0;
+  std::vector<std::vector<double>> Shares;
+
+  explicit Room(int n, const Vec3& offset = {})
+  {
+    this->Mesh.AddGrid(offset, { 4, 0, 0 }, { 0, 4, 0 }, n, n);
+    this->Floor = this->Mesh.Triangles.size();
+  }
+  void Close(const std::vector<double>& share)
+  {
+    this->Shares.resize(this->Mesh.Triangles.size(), share);
+  }
+  Scene Make(const std::vector<double>& floorShare) const
+  {
+    std::vector<std::vector<double>> shares(this->Floor, floorShare);
+    for (std::size_t t = this->Floor; t < this->Shares.size(); ++t)
+    {
+      shares.push_back(this->Shares[t]);
+    }
+    return Glass(this->Mesh, shares);
+  }
+  /// Everything from here on lets `share` through.
+  void Pane(const Vec3& o, const Vec3& a, const Vec3& b, int n, const std::vector<double>& share)
+  {
+    this->Shares.resize(this->Mesh.Triangles.size(), share);
+    this->Mesh.AddGrid(o, a, b, n, n);
+    this->Close(share);
+  }
+};
+
+Light PointLight(const Scene& scene, const Vec3& place, std::vector<double> intensity)
+{
+  Light light;
+  light.Position = place - scene.Origin;
+  light.Intensity = std::move(intensity);
+  return light;
+}
+
+IrradianceResult Simulate(const Scene& scene, EffectSwitch transmission = EffectSwitch::Auto,
+  double tolerance = 0.01)
+{
+  IrradianceOptions options;
+  options.RelativeTolerance = tolerance;
+  options.Switches[static_cast<int>(Effect::Transmission)] = transmission;
+  return SimulateIrradiance(scene, {}, options);
+}
+
+TEST(TransmittedLight, PanesMultiply)
+{
+  // One to four panes that cover all of the floor, of one share and tinted; UTM coordinates, too.
+  for (const Vec3& at : { Vec3{}, Vec3{ 5e5, 4e6, 30 } })
+  {
+    Room bare(6, at);
+    Scene open = bare.Make({ 0.0, 0.0, 0.0 });
+    open.Lights = { PointLight(open, at + Vec3{ 1.3, 2.1, 3.0 }, { 5.0, 3.0, 1.0 }) };
+    const IrradianceResult expected = Simulate(open);
+    const std::array<double, 3> share{ 0.5, 0.8, 0.0625 };
+    for (int panes = 1; panes <= 4; ++panes)
+    {
+      Room room(6, at);
+      for (int k = 0; k < panes; ++k)
+      {
+        room.Pane(at + Vec3{ -4, -4, 0.5 + 0.5 * k }, { 12, 0, 0.01 * k }, { 0, 12, 0 }, 3,
+          { share[0], share[1], share[2] });
+      }
+      Scene scene = room.Make({ 0.0, 0.0, 0.0 });
+      scene.Lights = { PointLight(scene, at + Vec3{ 1.3, 2.1, 3.0 }, { 5.0, 3.0, 1.0 }) };
+      const IrradianceResult got = Simulate(scene);
+      for (std::size_t c = 0; c < room.Floor; ++c)
+      {
+        for (int b = 0; b < 3; ++b)
+        {
+          const double want = expected.Cells[0].Values[3 * c + b] * std::pow(share[b], panes);
+          EXPECT_NEAR(got.Cells[0].Values[3 * c + b], want, 1e-9 * want) << panes << ' ' << c;
+          EXPECT_LE(std::fabs(got.Cells[0].Values[3 * c + b] - want),
+            got.Cells[0].Errors[3 * c + b] + (at.x > 0.0 ? 1e-9 * want : 0.0));
+        }
+      }
+      EXPECT_TRUE(got.Effects[static_cast<int>(Effect::Transmission)].Simulated);
+    }
+  }
+}
+
+TEST(TransmittedLight, OpaqueAndClearPanesAreTheLimits)
+{
+  const auto run = [](double share, bool pane, EffectSwitch transmission) {
+    Room room(5);
+    if (pane)
+    {
+      room.Pane({ 0.7, 0.9, 1.0 }, { 1.5, 0.2, 0.1 }, { -0.1, 1.4, 0.3 }, 2, { share });
+    }
+    Scene scene = room.Make({ 0.0 });
+    if (share == 0.0)
+    {
+      scene.TriangleTransmittance.clear();
+    }
+    scene.Lights = { PointLight(scene, { 1.7, 1.9, 3.0 }, { 9.0 }) };
+    IrradianceResult result = Simulate(scene, transmission, 1e-9);
+    result.Cells[0].Values.resize(room.Floor);
+    result.Cells[0].Errors.resize(room.Floor);
+    return result;
+  };
+  const IrradianceResult none = run(0.5, false, EffectSwitch::Auto);
+  const IrradianceResult opaque = run(0.0, true, EffectSwitch::Auto);
+  const IrradianceResult clear = run(1.0, true, EffectSwitch::Auto);
+  const IrradianceResult half = run(0.5, true, EffectSwitch::Auto);
+  const IrradianceResult off = run(0.5, true, EffectSwitch::Off);
+  // Switched off: as the opaque pane, to the last bit.
+  EXPECT_EQ(off.Cells[0].Values, opaque.Cells[0].Values);
+  EXPECT_FALSE(off.Effects[static_cast<int>(Effect::Transmission)].Simulated);
+  double most = 0.0;
+  double shadowed = 0.0;
+  for (std::size_t c = 0; c < none.Cells[0].Values.size(); ++c)
+  {
+    const double bright = none.Cells[0].Values[c];
+    const double dark = opaque.Cells[0].Values[c];
+    EXPECT_NEAR(clear.Cells[0].Values[c], bright, 1e-13 * bright);
+    EXPECT_NEAR(half.Cells[0].Values[c], 0.5 * (bright + dark), 1e-12 * bright);
+    most = std::max(most, half.Cells[0].Values[c] - dark);
+    shadowed += bright - dark;
+  }
+  EXPECT_GT(shadowed, 1.0);
+  EXPECT_GE(off.Effects[static_cast<int>(Effect::Transmission)].Bound, most);
+  EXPECT_LT(off.Effects[static_cast<int>(Effect::Transmission)].Bound, 5.0 * most);
+}
+
+TEST(TransmittedLight, APaneOverHalfOfOneCellGivesTheSumOfTheParts)
+{
+  // A point light over one large cell; the pane's rim casts its edge across it.
+  const double share = 0.3;
+  Room room(1);
+  room.Pane({ -10, -10, 1.0 }, { 11.5, 0, 0 }, { 0, 30, 0 }, 1, { share });
+  Scene scene = room.Make({ 0.0 });
+  const Vec3 place{ 2.5, 1.0, 2.0 };
+  scene.Lights = { PointLight(scene, place, { 1.0 }) };
+  const IrradianceResult got = Simulate(scene);
+  // The rim at x = 1.5, z = 1 falls on x = 0.5 of the floor: solid angles of both parts, by cutting
+  // the triangles (0,0)(4,0)(4,4) and (0,0)(4,4)(0,4) at x = 0.5.
+  const auto solid = [&](double x0, double y0, double x1, double y1, double x2, double y2) {
+    const Vec3 a = Vec3{ x0, y0, 0 } - place;
+    const Vec3 b = Vec3{ x1, y1, 0 } - place;
+    const Vec3 c = Vec3{ x2, y2, 0 } - place;
+    const double la = Length(a), lb = Length(b), lc = Length(c);
+    return 2.0 * std::fabs(std::atan2(Dot(a, Cross(b, c)),
+      la * lb * lc + Dot(a, b) * lc + Dot(b, c) * la + Dot(c, a) * lb));
+  };
+  const double first = share * solid(0, 0, 0.5, 0, 0.5, 0.5) + solid(0.5, 0, 4, 0, 4, 4) +
+    solid(0.5, 0, 4, 4, 0.5, 0.5);
+  const double second = share * (solid(0, 0, 0.5, 0.5, 0.5, 4) + solid(0, 0, 0.5, 4, 0, 4)) +
+    solid(0.5, 0.5, 4, 4, 0.5, 4);
+  EXPECT_NEAR(got.Cells[0].Values[0], first / 8.0, 1e-13);
+  EXPECT_NEAR(got.Cells[0].Values[1], second / 8.0, 1e-13);
+  EXPECT_LT(got.Cells[0].Errors[0], 1e-12);
+}
+
+/// What falls on the floor equals what falls on it past each part of the panes, whatever these are:
+/// brute force through the query, dense points of the floor.
+void AgainstPoints(const Scene& scene, std::size_t floor, double tolerance)
+{
+  const OcclusionScene occluders(scene);
+  const IrradianceResult got = Simulate(scene, EffectSwitch::Auto, 1e-3);
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  const int n = 160;
+  std::size_t within = 0;
+  std::size_t all = 0;
+  double greatest = 0.0;
+  for (std::size_t c = 0; c < floor; ++c)
+  {
+    const Triangle3 t = scene.TriangleAt(c);
+    std::vector<double> sum(bands, 0.0);
+    std::vector<double> pass(bands);
+    for (int i = 0; i < n; ++i)
+    {
+      for (int j = 0; j + i < n; ++j)
+      {
+        for (int half = 0; half < (i + j + 1 < n ? 2 : 1); ++half)
+        {
+          const double u = (i + (half ? 2.0 : 1.0) / 3.0) / n;
+          const double v = (j + (half ? 2.0 : 1.0) / 3.0) / n;
+          const Vec3 p = (1 - u - v) * t[0] + u * t[1] + v * t[2];
+          for (const Light& light : scene.Lights)
+          {
+            const bool far = light.Type == LightType::Directional;
+            const Vec3 d = far ? -light.Direction : light.Position - p;
+            const double r = Length(d);
+            const RayEnd from{ p, static_cast<std::int32_t>(c) };
+            if (far ? occluders.VisibleDirection(from, d, pass.data())
+                    : occluders.Visible(from, { light.Position, -1 }, pass.data()))
+            {
+              for (std::size_t b = 0; b < bands; ++b)
+              {
+                sum[b] += pass[b] * light.Intensity[b] * d.z / (far ? 1.0 : r * r * r) / (n * n);
+              }
+            }
+          }
+        }
+      }
+    }
+    for (std::size_t b = 0; b < bands; ++b)
+    {
+      const double value = got.Cells[0].Values[c * bands + b];
+      greatest = std::max(greatest, value);
+      ++all;
+      within += std::fabs(value - sum[b]) <= got.Cells[0].Errors[c * bands + b] + tolerance ? 1 : 0;
+    }
+  }
+  EXPECT_GT(greatest, 10.0 * tolerance);
+  EXPECT_GE(within, all - all / 20) << all;
+}
+
+TEST(TransmittedLight, FoldedMixedAndTintedPanesAgainstPoints)
+{
+  // A folded sheet, a mesh of opaque and clear triangles, a leaning pane that cuts the floor, a
+  // closed box; a point light and the sun.
+  Room room(4);
+  room.Pane({ 0.5, 0.5, 0.6 }, { 1.0, 0, 0.4 }, { 0, 1.2, 0 }, 1, { 0.5, 0.25 });
+  room.Pane({ 1.5, 0.5, 1.0 }, { -0.8, 0, 0.3 }, { 0, 1.2, 0 }, 1, { 0.5, 0.25 });
+  room.Pane({ 2.2, 2.0, 1.2 }, { 1.2, 0, 0 }, { 0, 1.2, 0.1 }, 1, { 0.9, 0.1 });
+  room.Shares.back() = { 0.0, 0.0 };
+  room.Pane({ 0.3, 2.5, -0.4 }, { 1.0, 0.3, 0 }, { 0.1, 0.6, 0.9 }, 1, { 0.6, 0.6 });
+  Scene scene = room.Make({ 0.0, 0.0 });
+  Light sun;
+  sun.Type = LightType::Directional;
+  sun.Direction = Normalized({ 0.3, -0.2, -1.0 });
+  sun.Intensity = { 0.5, 1.0 };
+  scene.Lights = { PointLight(scene, { 1.9, 1.7, 2.5 }, { 6.0, 2.0 }), sun };
+  AgainstPoints(scene, room.Floor, 4e-3);
+}
+
+TEST(TransmittedLight, AGlassBoxRoundTheLightTakesItsShareEverywhere)
+{
+  Room room(8);
+  const std::size_t before = room.Mesh.Triangles.size();
+  room.Shares.resize(before, { 0.0 });
+  room.Mesh.AddBox({ 1.0, 1.0, 0.5 }, { 2.0, 2.2, 1.7 }, 3, false);
+  room.Close({ 0.7 });
+  Scene scene = room.Make({ 0.0 });
+  Room bare(8);
+  Scene open = bare.Make({ 0.0 });
+  scene.Lights = { PointLight(scene, { 1.4, 1.5, 1.0 }, { 2.0 }) };
+  open.Lights = { PointLight(open, { 1.4, 1.5, 1.0 }, { 2.0 }) };
+  const IrradianceResult got = Simulate(scene);
+  const IrradianceResult expected = Simulate(open);
+  for (std::size_t c = 0; c < room.Floor; ++c)
+  {
+    const double want = 0.7 * expected.Cells[0].Values[c];
+    EXPECT_NEAR(got.Cells[0].Values[c], want, 1e-12 * want) << c;
+    EXPECT_LE(got.Cells[0].Errors[c], 1e-11 * want);
+  }
+}
+
+TEST(TransmittedLight, ShadowAndTransmittedLightAreTheUnblockedLight)
+{
+  // A plate that lets tau through and its complement of 1 - tau share out the light.
+  const auto flux = [](double share, bool plate) {
+    Room room(3);
+    if (plate)
+    {
+      room.Pane({ 0.9, 1.1, 0.8 }, { 1.3, 0.4, 0.3 }, { -0.3, 1.2, 0.2 }, 4, { share });
+    }
+    Scene scene = room.Make({ 0.0 });
+    scene.Lights = { PointLight(scene, { 2.2, 1.6, 2.5 }, { 4.0 }) };
+    const IrradianceResult r = Simulate(scene, EffectSwitch::Auto, 1e-9);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < room.Floor; ++c)
+    {
+      sum += r.Cells[0].Values[c] * Area(scene.TriangleAt(c));
+    }
+    return sum;
+  };
+  const double open = flux(0.0, false);
+  const double dark = flux(0.0, true);
+  for (const double share : { 0.2, 0.35, 0.9 })
+  {
+    const double through = flux(share, true) - dark;
+    const double held = open - flux(share, true);
+    EXPECT_NEAR(through + held, open - dark, 1e-13 * open);
+    EXPECT_NEAR(through, share * (open - dark), 1e-12 * open);
+    EXPECT_NEAR(flux(1.0 - share, true) - dark, held, 1e-12 * open);
+  }
+}
+
+TEST(TransmittedLight, PointsAndThreads)
+{
+  Room room(4);
+  room.Pane({ 0.5, 0.5, 1.0 }, { 2.0, 0, 0 }, { 0, 2.0, 0 }, 2, { 0.5, 0.25 });
+  room.Pane({ 1.5, 1.5, 1.5 }, { 2.0, 0, 0 }, { 0, 2.0, 0 }, 2, { 0.1, 0.0 });
+  Scene scene = room.Make({ 0.0, 0.0 });
+  scene.Lights = { PointLight(scene, { 2.0, 2.0, 8.0 }, { 3.0, 7.0 }) };
+  std::vector<SurfacePoint> points;
+  std::vector<std::array<double, 2>> expected;
+  for (int i = 0; i < 20; ++i)
+  {
+    for (int j = 0; j < 20; ++j)
+    {
+      const Vec3 p{ 0.1 + 0.19 * i, 0.1 + 0.19 * j, 0.2 };
+      const Vec3 d = Vec3{ 2.0, 2.0, 8.0 } - p;
+      const auto crosses = [&](double lo, double hi, double z) {
+        const Vec3 at = p + ((z - p.z) / d.z) * d;
+        return at.x > lo && at.x < hi && at.y > lo && at.y < hi;
+      };
+      const double e = d.z / std::pow(Length(d), 3);
+      std::array<double, 2> want{ 3.0 * e, 7.0 * e };
+      want[0] *= (crosses(0.5, 2.5, 1.0) ? 0.5 : 1.0) * (crosses(1.5, 3.5, 1.5) ? 0.1 : 1.0);
+      want[1] *= (crosses(0.5, 2.5, 1.0) ? 0.25 : 1.0) * (crosses(1.5, 3.5, 1.5) ? 0.0 : 1.0);
+      points.push_back({ p - scene.Origin, { 0, 0, 1 }, -1, {}, 0.0 });
+      expected.push_back(want);
+    }
+  }
+  std::vector<IrradianceResult> results;
+  for (const int threads : { 1, 2, 7 })
+  {
+    IrradianceOptions options;
+    options.Threads = threads;
+    results.push_back(SimulateIrradiance(scene, points, options));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    for (int b = 0; b < 2; ++b)
+    {
+      EXPECT_NEAR(results[0].Points[0].Values[2 * i + b], expected[i][b], 1e-13) << i;
+    }
+  }
+  for (const IrradianceResult& r : results)
+  {
+    EXPECT_EQ(r.Points[0].Values, results[0].Points[0].Values);
+    EXPECT_EQ(r.Cells[0].Values, results[0].Cells[0].Values);
+    EXPECT_EQ(r.Cells[0].Errors, results[0].Cells[0].Errors);
   }
 }
 
