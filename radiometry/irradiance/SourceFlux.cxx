@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace radiometry
 {
@@ -94,12 +93,7 @@ double SourceFlux::OnPolygon(
 
   if (!this->Legacy && this->Web)
   {
-    std::vector<Vec3> local(count);
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      local[k] = polygon[k] - this->Source.Position;
-    }
-    return std::fmax(0.0, this->Web->OnPolygon(local.data(), count, error));
+    return std::fmax(0.0, this->Web->OnPolygon(polygon, count, error, this->Source.Position));
   }
   if (!this->Legacy)
   {
@@ -129,21 +123,36 @@ double SourceFlux::OnPolygon(
   return sum;
 }
 
-/// int I f r^2 d omega over a triangle: the exact solid angle times a weighted mean.
+/// int I f r^2 d omega over a triangle: the exact flux without attenuation, so that no narrow beam is
+/// missed, times the mean of f r^2 weighted by the intensity.
 double SourceFlux::Weighted(const Vec3& a, const Vec3& b, const Vec3& c) const
 {
-  const double omega = SolidAngle(a, b, c);
+  const Vec3 triangle[3] = { a, b, c };
+  double rounding = 0.0;
+  const double flux = this->Web
+    ? this->Web->OnPolygon(triangle, 3, rounding)
+    : AxialFlux(triangle, 3, this->Source.Direction, this->Distribution);
+  if (!(flux > 0.0))
+  {
+    return 0.0;
+  }
   double weighted = 0.0;
   double weights = 0.0;
+  double plain = 0.0;
+  double plainWeights = 0.0;
   for (const TriangleRule::Node& q : TriangleRuleOfDegree(7).Nodes)
   {
     const Vec3 p = q.B0 * a + q.B1 * b + q.B2 * c;
     const double r = Length(p);
     const double density = q.Weight / (r * r * r);
-    weighted += density * this->Intensity(p, r) * r * r * this->Falloff(r);
-    weights += density;
+    const double value = density * this->Intensity(p, r);
+    const double factor = r * r * this->Falloff(r);
+    weighted += value * factor;
+    weights += value;
+    plain += density * factor;
+    plainWeights += density;
   }
-  return std::fmax(0.0, omega) * (weighted / weights);
+  return flux * (weights > 0.0 ? weighted / weights : plain / plainWeights);
 }
 
 double SourceFlux::Attenuated(const Vec3& a, const Vec3& b, const Vec3& c, double whole, int depth,

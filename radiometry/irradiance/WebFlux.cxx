@@ -6,7 +6,6 @@
 #include "radiometry/scene/Units.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace radiometry
@@ -58,6 +57,15 @@ struct WebFlux::Corner
 {
   double Theta, Psi, Sine;
   std::size_t I, J; // as Cell() counts; J is 1 where psi does not matter
+};
+
+/// A polygon as it is given, and in the grid's axes seen from the light.
+struct WebFlux::View
+{
+  const Vec3* Polygon;
+  const Vec3* Local;
+  std::size_t Count;
+  const Vec3& From;
 };
 
 /// A great-circle arc a cos s + t sin s, s in [0, Length], in the grid's axes.
@@ -164,8 +172,8 @@ WebFlux::Corner WebFlux::Locate(const Vec3& v) const
 }
 
 /// A small polygon inside one cell, clear of the poles.
-double WebFlux::InCell(const Vec3* local, std::size_t count, const Corner& cell, double size,
-  double sine, double& error) const
+double WebFlux::InCell(
+  const View& view, const Corner& cell, double size, double sine, double& error) const
 {
   const std::size_t n = this->Grid.Thetas();
   const std::size_t m = this->Grid.Psis();
@@ -188,13 +196,13 @@ double WebFlux::InCell(const Vec3* local, std::size_t count, const Corner& cell,
   const TriangleRule& rule = TriangleRuleOfDegree(5);
   double flux = 0.0;
   double whole = 0.0;
-  for (std::size_t k = 2; k < count; ++k)
+  for (std::size_t k = 2; k < view.Count; ++k)
   {
     double weighted = 0.0;
     double weights = 0.0;
     for (const TriangleRule::Node& q : rule.Nodes)
     {
-      const Vec3 p = q.B0 * local[0] + q.B1 * local[k - 1] + q.B2 * local[k];
+      const Vec3 p = q.B0 * view.Local[0] + q.B1 * view.Local[k - 1] + q.B2 * view.Local[k];
       const double l2 = Dot(p, p);
       const double density = q.Weight / (l2 * std::sqrt(l2));
       const double s = (std::atan2(std::sqrt(p.x * p.x + p.y * p.y), p.z) - theta0) * perTheta;
@@ -209,7 +217,8 @@ double WebFlux::InCell(const Vec3* local, std::size_t count, const Corner& cell,
       weighted += density * value;
       weights += density;
     }
-    const double omega = SolidAngle(local[0], local[k - 1], local[k]);
+    const Vec3 triangle[3] = { view.Polygon[0], view.Polygon[k - 1], view.Polygon[k] };
+    const double omega = SolidAngle(triangle, 3, view.From);
     whole += omega;
     flux += omega * (weighted / weights);
   }
@@ -423,75 +432,110 @@ WebFlux::Sum WebFlux::StartOf(
   return { other ? Pi : 0.0, 0, true };
 }
 
-double WebFlux::OnPolygon(const Vec3* polygon, std::size_t count, double& error) const
+/// A polygon far smaller than what rounding leaves of differences of angles, across lines of the
+/// grid: the mean intensity, which varies by next to nothing.
+double WebFlux::AcrossCells(const View& view, double& error) const
 {
-  constexpr std::size_t most = 32;
+  double flux = 0.0;
+  double whole = 0.0;
+  double least = 1.0;
+  double greatest = 0.0;
+  for (std::size_t k = 2; k < view.Count; ++k)
+  {
+    const Vec3 triangle[3] = { view.Polygon[0], view.Polygon[k - 1], view.Polygon[k] };
+    const double omega = SolidAngle(triangle, 3, view.From);
+    double mean = 0.0;
+    for (const TriangleRule::Node& q : TriangleRuleOfDegree(5).Nodes)
+    {
+      const Vec3 p = q.B0 * view.Local[0] + q.B1 * view.Local[k - 1] + q.B2 * view.Local[k];
+      const double value = this->Web->Intensity(
+        p.x * this->Grid.AxisX + p.y * this->Grid.AxisY + p.z * this->Grid.Pole);
+      mean += q.Weight * value;
+      least = std::min(least, value);
+      greatest = std::max(greatest, value);
+    }
+    flux += omega * mean;
+    whole += omega;
+  }
+  error += std::fabs(whole) * ((greatest - least) + 1e-14 * greatest);
+  return flux;
+}
+
+double WebFlux::OnPolygon(
+  const Vec3* polygon, std::size_t count, double& error, const Vec3& from) const
+{
   if (count < 3)
   {
     return 0.0;
   }
-  const std::size_t n = std::min(count, most);
-  std::array<Vec3, most> local;
-  std::array<Corner, most> corners;
-  for (std::size_t k = 0; k < n; ++k)
-  {
-    local[k] = this->ToGrid(polygon[k]);
-    corners[k] = this->Locate(local[k]);
-  }
+  thread_local std::vector<Vec3> local;
+  thread_local std::vector<Corner> corners;
   thread_local std::vector<Edge> edges;
+  thread_local std::vector<std::vector<double>> cuts;
+  local.clear();
+  corners.clear();
   edges.clear();
+  cuts.resize(std::max(cuts.size(), count));
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    local.push_back(this->ToGrid(polygon[k] - from));
+    corners.push_back(this->Locate(local[k]));
+  }
   double around = 0.0;
   double sine = 1.0;
   bool oneCell = true;
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < count; ++k)
   {
     // In the scene's axes, where coordinates may be exact: short and nearly straight arcs keep their
     // digits.
-    const Vec3& from = polygon[k];
-    const Vec3& to = polygon[(k + 1) % n];
-    const Vec3 m = Cross(from, to - from);
+    const std::size_t next = k + 1 < count ? k + 1 : 0;
+    const Vec3 start = polygon[k] - from;
+    const Vec3 m = Cross(start, polygon[next] - polygon[k]);
     const double area = Length(m);
     const Vec3 normal = area > 0.0 ? this->Sign * this->ToGrid(m / area) : Vec3{};
-    edges.emplace_back(Normalized(local[k]), normal, std::atan2(area, Dot(from, to)));
-    edges[k].Reach(corners[k].Theta, corners[(k + 1) % n].Theta);
+    edges.emplace_back(
+      Normalized(local[k]), normal, std::atan2(area, Dot(start, polygon[next] - from)));
+    edges[k].Reach(corners[k].Theta, corners[next].Theta);
     around += edges[k].Length;
     sine = std::min(sine, corners[k].Sine);
     oneCell = oneCell && corners[k].I == corners[0].I && corners[k].J == corners[0].J;
   }
   const double size = 0.5 * around; // no two points are further apart
   const bool clear = sine > 2.0 * size;
-
-  thread_local std::vector<std::vector<double>> cuts;
-  cuts.resize(std::max(cuts.size(), n));
   bool crossed = !oneCell;
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < count; ++k)
   {
-    this->FindCuts(edges[k], corners[k], corners[(k + 1) % n], clear, cuts[k]);
+    this->FindCuts(edges[k], corners[k], corners[k + 1 < count ? k + 1 : 0], clear, cuts[k]);
     crossed = crossed || !cuts[k].empty();
   }
+  const View view{ polygon, local.data(), count, from };
   if (clear && !crossed && size < 0.03 * sine)
   {
-    return this->Sign * this->InCell(local.data(), n, corners[0], size, sine, error);
+    return this->InCell(view, corners[0], size, sine, error);
   }
-  const double facing = this->Sign * (SolidAngle(polygon, n) < 0.0 ? -1.0 : 1.0);
-  Sum sum = this->StartOf(edges.data(), n, corners[0], clear, facing);
-  for (std::size_t k = 0; k < n; ++k)
+  if (clear && size < 1e-8 * sine)
+  {
+    return this->AcrossCells(view, error);
+  }
+  const double facing = SolidAngle(polygon, count, from) < 0.0 ? -1.0 : 1.0;
+  Sum sum = this->StartOf(edges.data(), count, corners[0], clear, this->Sign * facing);
+  for (std::size_t k = 0; k < count; ++k)
   {
     // Psi does not change along a meridian, and at the pole it may pass G is 0.
-    double from = edges[k].Lift == 0.0 ? edges[k].Length : 0.0;
+    double at = edges[k].Lift == 0.0 ? edges[k].Length : 0.0;
     for (std::size_t c = 0; c <= cuts[k].size(); ++c)
     {
       const double to = c < cuts[k].size() ? cuts[k][c] : edges[k].Length;
-      if (to > from)
+      if (to > at)
       {
-        this->AddPiece(edges[k], from, to, sum);
-        from = to;
+        this->AddPiece(edges[k], at, to, sum);
+        at = to;
       }
     }
   }
   error += 2e-13 * sum.Gross + sum.Rounding + 1e-15 * around * sum.Peak;
   const double flux = -this->Sign * sum.Flux;
-  return flux * (this->Sign * facing) > 0.0 ? flux : 0.0;
+  return flux * facing > 0.0 ? flux : 0.0;
 }
 
 } // namespace radiometry

@@ -19,7 +19,8 @@ namespace radiometry
 ///           integrated by a Gauss rule fit to its length. A small polygon inside one cell: a rule
 ///           of degree 5 times the exact solid angle.
 ///   Error   1e-12 of the flux or better, plus 1e-15 of the greatest intensity about the polygon
-///           times its angular size; `error` of OnPolygon bounds it
+///           times its angular size, plus (4e-16/delta)^2 where the rim passes a pole of the web at an
+///           angle delta; `error` of OnPolygon bounds it
 ///   Cost    O(lines of the grid that the rim crosses); a small polygon: a few hundred nanoseconds
 ///   Source  the idea of Arvo 1995 (moments as boundary integrals), for any distribution
 class WebFlux
@@ -30,19 +31,21 @@ public:
 
   /// Relative intensity in a direction of the scene (any length but zero).
   double Intensity(const Vec3& direction) const;
-  /// Flux onto the front of a flat convex polygon seen from the light at the origin [sr]; adds a
-  /// bound on its rounding and quadrature error to `error`.
-  double OnPolygon(const Vec3* polygon, std::size_t count, double& error) const;
+  /// Flux onto the front of a flat convex polygon seen from the light at `from` [sr]; adds a bound on
+  /// its rounding and quadrature error to `error`.
+  double OnPolygon(
+    const Vec3* polygon, std::size_t count, double& error, const Vec3& from = {}) const;
 
 private:
   struct Corner;
   struct Edge;
   struct Sum;
+  struct View;
 
   Vec3 ToGrid(const Vec3& v) const;
   Corner Locate(const Vec3& local) const;
-  double InCell(const Vec3* local, std::size_t count, const Corner& cell, double size,
-    double sine, double& error) const;
+  double InCell(const View& view, const Corner& cell, double size, double sine, double& error) const;
+  double AcrossCells(const View& view, double& error) const;
   double Column(std::size_t j, std::size_t i, double theta, const Sum& about) const;
   void AddPiece(const Edge& edge, double from, double to, Sum& sum) const;
   void FindCuts(const Edge& edge, const Corner& a, const Corner& b, bool clear,

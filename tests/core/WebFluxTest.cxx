@@ -395,9 +395,66 @@ TEST(WebFlux, LegacyAttenuationTakesTheWebToo)
   double error = 0.0;
   const double exact = 0.5 * physics.OnPolygon(cell, 3, { 0, 0, 1 }, error);
   error = 0.0;
-  EXPECT_NEAR(legacy.OnPolygon(cell, 3, { 0, 0, 1 }, error), exact, 1e-6 * exact + error);
+  EXPECT_NEAR(legacy.OnPolygon(cell, 3, { 0, 0, 1 }, error), exact, 1e-12 * exact + error);
   EXPECT_NEAR(legacy.AtPoint({ 0.2, 0.2, 0 }, { 0, 0, 1 }),
     0.5 * physics.AtPoint({ 0.2, 0.2, 0 }, { 0, 0, 1 }), 1e-15);
+}
+
+TEST(WebFlux, LegacyAttenuationFindsANarrowBeam)
+{
+  // A beam of half a degree on a wall of 100 m, without any fall-off: int I cos(theta) dA at 10 m is
+  // int I r^2 d omega = 100 int I/cos^2(gamma) d omega.
+  const auto data = std::make_shared<CandelaWeb>(WebType::C, std::vector<double>{ 0 },
+    std::vector<double>{ 0, 0.25, 0.5, 90 }, std::vector<double>{ 1, 1, 0, 0 });
+  Light light = Luminaire(data);
+  light.Position = { 0.3, 0.2, 10 };
+  light.Attenuation[0] = 1.0;
+  light.Attenuation[2] = 0.0;
+  const SourceFlux beam(light, true, true);
+  const Vec3 wall[4] = { { -50, -50, 0 }, { 50, -50, 0 }, { 50, 50, 0 }, { -50, 50, 0 } };
+  double error = 0.0;
+  const double value = beam.OnPolygon(wall, 4, { 0, 0, 1 }, error);
+  EXPECT_NEAR(value, 100.0 * data->TotalFlux(), 1e-4 * value + error);
+  EXPECT_GT(value, 0.0);
+  EXPECT_LT(error, 0.05 * value);
+}
+
+TEST(WebFlux, SmallCellsFarAwayKeepTheirDigits)
+{
+  // Cells of 1 m seen from 1e3 to 1e9 m, on lines of the grid and off them, at coordinates of that
+  // size: their flux is intensity times solid angle.
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int k = 0; k < 400; ++k)
+  {
+    const double far = std::pow(10.0, 3 + 6 * unit(random));
+    std::vector<double> values; // continuous at poles and all round
+    for (const double c : Steps(0, 360, 13))
+    {
+      for (const double g : Steps(0, 180, 19))
+      {
+        values.push_back(1.2 + std::sin(g * Pi / 180) * std::cos(c * Pi / 180));
+      }
+    }
+    const auto data =
+      std::make_shared<CandelaWeb>(WebType::C, Steps(0, 360, 13), Steps(0, 180, 19), values);
+    Light light = Luminaire(data);
+    const Frame frame = k % 2 ? RandomFrame(random) : Frame{ { 0, 0, -1 }, { 1, 0, 0 } };
+    light.Direction = frame.Axis;
+    light.Reference = frame.Reference;
+    light.Position = far * Vec3{ std::floor(3 * unit(random)), std::floor(3 * unit(random)), 1 };
+    const SourceFlux source(light, true, true);
+    const Vec3 cell[4] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+    double error = 0.0;
+    const double value = source.OnPolygon(cell, 4, { 0, 0, 1 }, error);
+    const Vec3 middle{ 0.5, 0.5, 0 };
+    const double omega = SolidAngle(cell, 4, light.Position);
+    const WebFlux web(data, frame.Axis, frame.Reference);
+    const double intensity = web.Intensity(middle - light.Position);
+    // The intensity varies over the cell by its slope, of order 1 a radian.
+    EXPECT_NEAR(value, intensity * omega, error + 4 * omega / far) << k << " " << far;
+    EXPECT_LT(error, 1e-4 * omega) << k << " " << far;
+  }
 }
 
 } // namespace
