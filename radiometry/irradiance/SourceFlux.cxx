@@ -2,7 +2,6 @@
 #include "radiometry/irradiance/SourceFlux.h"
 
 #include "radiometry/geometry/Quadrature.h"
-#include "radiometry/geometry/SolidAngle.h"
 
 #include <cmath>
 #include <limits>
