@@ -3,7 +3,8 @@
 
 Every public class that has a ParaView name has paraview-xml/<class>.xml with a proxy of that
 class and that label; every XML file defines the class it is named after; every class it names is
-the project's own or starts with vtk; every property says what it is for.
+the project's own or starts with vtk; a property has the same name in ParaView's Python, which takes
+it from the label, as in VTK's.
 """
 import os
 import re
@@ -79,6 +80,13 @@ def check(classes, xml_texts):
                 )
             if proxy.find("Documentation") is None:
                 problems.append(f"{file_name}: proxy {proxy.get('name')} has no Documentation")
+            if group in ("sources", "filters"):
+                problems += [
+                    f"{file_name}: label \"{p.get('label')}\" makes another name than {p.get('name')}"
+                    for p in proxy
+                    if p.tag.endswith("Property") and p.get("label")
+                    and re.sub(r"\W", "", p.get("label")) != p.get("name")
+                ]
     return problems
 
 
@@ -94,6 +102,11 @@ def self_check():
     assert len(check({name}, {name + ".xml": good.replace("<Documentation>x</Documentation>", "")})) == 1
     assert len(check({name}, {name + ".xml": good.replace(name, "vtkOther")})) == 1
     assert len(check({name}, {name + ".xml": good + "<"})) == 1
+    end = "</SourceProxy>"
+    alike = '<DoubleVectorProperty name="TimeBudget" label="Time Budget"/>' + end
+    assert check({name}, {name + ".xml": good.replace(end, alike)}) == []
+    other = '<DoubleVectorProperty name="TimeBudget" label="Seconds"/>' + end
+    assert len(check({name}, {name + ".xml": good.replace(end, other)})) == 1
 
 
 if __name__ == "__main__":
