@@ -5,10 +5,11 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 namespace radiometry
 {
+
+struct WebCorner;
 
 /// What a luminaire with a candela web sends through polygons, in units of its greatest intensity.
 ///   Model   flux = int I d omega, I bilinear in the web's angles. By Green's theorem on the sphere
@@ -37,21 +38,12 @@ public:
     const Vec3* polygon, std::size_t count, double& error, const Vec3& from = {}) const;
 
 private:
-  struct Corner;
-  struct Edge;
-  struct Sum;
   struct View;
 
   Vec3 ToGrid(const Vec3& v) const;
-  Corner Locate(const Vec3& local) const;
-  double InCell(const View& view, const Corner& cell, double size, double sine, double& error) const;
+  double InCell(
+    const View& view, const WebCorner& cell, double size, double sine, double& error) const;
   double AcrossCells(const View& view, double& error) const;
-  double Column(std::size_t j, std::size_t i, double theta, const Sum& about) const;
-  void AddPiece(const Edge& edge, double from, double to, Sum& sum) const;
-  void FindCuts(const Edge& edge, const Corner& a, const Corner& b, bool clear,
-    std::vector<double>& cuts) const;
-  Sum StartOf(const Edge* edges, std::size_t count, const Corner& corner, bool clear,
-    double facing) const;
 
   std::shared_ptr<const CandelaWeb> Web;
   const CandelaWeb::PolarGrid& Grid;
