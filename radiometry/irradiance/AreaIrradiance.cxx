@@ -40,7 +40,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
     return;
   }
   Report(stage.Listener, stage.Begin, stage.Name);
-  const AreaStage area(scene, occluders, sources, options.Occlusion);
+  const AreaStage area(scene, occluders, sources, options.Occlusion, options.Transmission);
   const std::vector<double> weights = Weights(receivers);
   const auto bands = static_cast<std::size_t>(result.Bands);
   const std::vector<double> before = result.Irradiance;

@@ -262,13 +262,14 @@ void AreaReceiver::Evaluate(
   {
     return;
   }
-  if (part.Listed && blockers.HideAll(receiver, light, shaft, part.Inside))
+  if (part.Listed && this->View.CountPanes(part.Inside) == 0 &&
+    blockers.HideAll(receiver, light, shaft, part.Inside))
   {
     part.Value = 0.0;
     return;
   }
 
-  const bool few = part.Listed && part.Inside.size() <= SourceView::MostCut;
+  const bool few = part.Listed && this->View.Few(part.Inside);
   SampleMean samples(part.Whole / Area(part.Corners));
   const std::uint64_t partKey = Hash64(key, Hash64(part.Source, part.Path));
   const Triangle3& c = part.Corners;

@@ -26,20 +26,79 @@ double Extent(const Scene& scene)
   return extent;
 }
 
+/// True when panes let through the same in two bands.
+bool SameTransmittance(const Scene& scene, std::size_t a, std::size_t b)
+{
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
+  {
+    if (scene.TriangleTransmittance[t * bands + a] != scene.TriangleTransmittance[t * bands + b])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 } // namespace
 
 AreaStage::AreaStage(const Scene& scene, const OcclusionScene& occluders,
-  const AreaSources& sources, bool occlusion,
-  std::uint64_t seed)
+  const AreaSources& sources, bool occlusion, bool transmission, std::uint64_t seed)
   : Geometry(scene)
   , Occluders(occluders)
   , Blocking(occlusion && !scene.Triangles.empty() && sources.Size() > 0
         ? std::make_unique<Blockers>(scene)
         : nullptr)
-  , View(sources, Blocking.get(), occluders)
-  , Receiver(View, Extent(scene))
+  , ViewOfBand(static_cast<std::size_t>(scene.Optics.Bands), 0)
   , Seed(seed)
 {
+  const bool panes = this->Blocking && transmission && occluders.HasPanes();
+  std::vector<std::size_t> first; // band of each view
+  for (std::size_t b = 0; b < this->ViewOfBand.size() && panes; ++b)
+  {
+    std::size_t v = 0;
+    while (v < first.size() && !SameTransmittance(scene, first[v], b))
+    {
+      ++v;
+    }
+    this->ViewOfBand[b] = v;
+    if (v == first.size())
+    {
+      first.push_back(b);
+      this->Views.push_back(std::make_unique<SourceView>(
+        sources, this->Blocking.get(), occluders, static_cast<int>(b)));
+    }
+  }
+  if (this->Views.empty())
+  {
+    this->Views.push_back(std::make_unique<SourceView>(sources, this->Blocking.get(), occluders));
+  }
+  for (const auto& view : this->Views)
+  {
+    this->Receivers.emplace_back(*view, Extent(scene));
+  }
+}
+
+/// Puts the bands of all views together.
+template <class Ask>
+AreaLight AreaStage::Gather(const Ask& ask) const
+{
+  AreaLight light = ask(this->Receivers[0]);
+  for (std::size_t v = 1; v < this->Receivers.size(); ++v)
+  {
+    const AreaLight other = ask(this->Receivers[v]);
+    for (std::size_t b = 0; b < this->ViewOfBand.size(); ++b)
+    {
+      if (this->ViewOfBand[b] == v)
+      {
+        light.Value[b] = other.Value[b];
+        light.Error[b] = other.Error[b];
+      }
+    }
+    light.Rays += other.Rays;
+    light.Open = light.Open || other.Open;
+  }
+  return light;
 }
 
 std::vector<ViewPoint> AreaStage::Places(const SurfacePoint& point) const
@@ -70,13 +129,18 @@ std::vector<ViewPoint> AreaStage::Places(const SurfacePoint& point) const
 AreaLight AreaStage::At(const Patch& patch, std::size_t index, const double* before,
   const AreaEffort& effort) const
 {
-  return this->Receiver.AtPatch(patch, Hash64(this->Seed ^ AreaSalt, index), before, effort);
+  return this->Gather([&](const AreaReceiver& receiver) {
+    return receiver.AtPatch(patch, Hash64(this->Seed ^ AreaSalt, index), before, effort);
+  });
 }
 AreaLight AreaStage::At(const SurfacePoint& point, std::size_t index, const double* before,
   const AreaEffort& effort) const
 {
-  return this->Receiver.AtPoint(
-    point, this->Places(point), Hash64(this->Seed ^ AreaSalt ^ 1u, index), before, effort);
+  const std::vector<ViewPoint> places = this->Places(point);
+  return this->Gather([&](const AreaReceiver& receiver) {
+    return receiver.AtPoint(
+      point, places, Hash64(this->Seed ^ AreaSalt ^ 1u, index), before, effort);
+  });
 }
 
 } // namespace radiometry

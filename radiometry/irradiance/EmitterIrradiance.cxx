@@ -23,7 +23,7 @@ EmitterResult Compute(const Scene& scene, const OcclusionScene& occluders,
   result.Irradiance.assign(receivers.size() * bands, 0.0);
   result.Error = result.Irradiance;
   const AreaSources sources(emitters);
-  const AreaStage area(scene, occluders, sources, options.Occlusion, options.Seed);
+  const AreaStage area(scene, occluders, sources, options.Occlusion, false, options.Seed);
   const std::vector<double> nothing(bands, 0.0);
   std::vector<std::int64_t> rays(receivers.size(), 0);
   AreaEffort effort;

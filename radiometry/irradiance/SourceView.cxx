@@ -65,10 +65,12 @@ struct SourceView::Part
 };
 
 SourceView::SourceView(
-  const AreaSources& sources, const Blockers* blockers, const OcclusionScene& occluders)
+  const AreaSources& sources, const Blockers* blockers, const OcclusionScene& occluders, int band)
   : Sources(sources)
   , Blocking(blockers)
   , Occluders(occluders)
+  , Panes(band >= 0 ? occluders.Panes() : nullptr)
+  , Band(band)
   , NearSurface(sources.Size(), 0)
 {
   for (std::size_t k = 0; k < sources.Size() && blockers; ++k)
@@ -83,9 +85,96 @@ SourceView::SourceView(
   }
 }
 
-/// Decides a part from the triangles in the pyramid before it, where they are few or hide it.
-void SourceView::Look(const ViewPoint& from, const AreaSource& source, Part& part) const
+std::size_t SourceView::CountPanes(const std::vector<std::int32_t>& triangles) const
 {
+  return !this->Panes ? 0
+                      : static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(),
+                          [&](std::int32_t t) { return (*this->Panes)[t] != 0; }));
+}
+
+/// What of the light passes between a point and a place on a source.
+double SourceView::Passing(const ViewPoint& from, std::size_t s, const Vec3& place) const
+{
+  RayEnd to{ place, this->Sources[s].Triangle };
+  if (to.Triangle < 0 && this->NearSurface[s])
+  {
+    to.Triangle = this->Occluders.Touching(
+      to.Point, this->Sources[s].Normal, this->Blocking->Rounding());
+    to.Close = to.Triangle < 0 && this->Occluders.TooClose(to.Point);
+  }
+  if (!this->Panes)
+  {
+    return this->Occluders.Occluded(from.End, to) ? 0.0 : 1.0;
+  }
+  static thread_local std::vector<double> bands;
+  bands.resize(static_cast<std::size_t>(this->Sources.Bands()));
+  return this->Occluders.Visible(from.End, to, bands.data()) ? bands[this->Band] : 0.0;
+}
+
+/// Cuts the shadows of few triangles out of the pieces: what then gets from them. Within what panes
+/// cut, one ray tells what all of a piece sends through. Returns whether anything was hidden.
+bool SourceView::Cut(const ViewPoint& from, std::size_t s,
+  const std::vector<std::int32_t>& triangles, std::vector<ConvexPolygon>& pieces, double& visible,
+  std::int64_t& rays) const
+{
+  const Vec3& x = from.End.Point;
+  if (this->CountPanes(triangles) == 0)
+  {
+    const bool touched =
+      CutShadows(x, *this->Blocking, triangles.data(), triangles.size(), pieces);
+    visible = touched ? Factor(x, from.Normal, pieces) : visible;
+    return touched;
+  }
+  static thread_local Pieces under;
+  bool touched = false;
+  bool tinted = false;
+  for (const bool pane : { false, true })
+  {
+    for (const std::int32_t t : triangles)
+    {
+      if (((*this->Panes)[t] != 0) != pane)
+      {
+        continue;
+      }
+      under.clear();
+      const bool cut = CutShadows(x, *this->Blocking, &t, 1, pieces, pane ? &under : nullptr);
+      touched = touched || cut;
+      tinted = tinted || (cut && pane);
+      pieces.insert(pieces.end(), under.begin(), under.end());
+    }
+  }
+  if (!touched)
+  {
+    return false;
+  }
+  visible = 0.0;
+  for (const ConvexPolygon& piece : pieces)
+  {
+    const double whole = PointToVisiblePolygon(x, from.Normal, piece);
+    if (!(whole > 0.0))
+    {
+      continue;
+    }
+    Vec3 middle;
+    double area = 0.0;
+    for (int k = 2; k < piece.N && tinted; ++k)
+    {
+      const Triangle3 fan{ piece.P[0], piece.P[k - 1], piece.P[k] };
+      middle += Area(fan) * Centroid(fan);
+      area += Area(fan);
+    }
+    rays += tinted ? 1 : 0;
+    visible += whole *
+      (tinted ? this->Passing(from, s, area > 0.0 ? middle / area : piece.P[0]) : 1.0);
+  }
+  return true;
+}
+
+/// Decides a part from the triangles in the pyramid before it, where they are few or hide it.
+void SourceView::Look(
+  const ViewPoint& from, std::size_t s, Part& part, std::int64_t& rays) const
+{
+  const AreaSource& source = this->Sources[s];
   static thread_local std::vector<std::int32_t> inside;
   ConvexPolygon apex;
   apex.Add(from.End.Point);
@@ -101,17 +190,16 @@ void SourceView::Look(const ViewPoint& from, const AreaSource& source, Part& par
   {
     part.Visible = part.Whole;
   }
-  else if (all && inside.size() <= MostCut)
+  else if (all && this->Few(inside))
   {
     static thread_local Pieces pieces;
     pieces.assign(1, part.Piece);
-    part.Touched =
-      CutShadows(from.End.Point, *this->Blocking, inside.data(), inside.size(), pieces);
-    part.Visible = part.Touched
-      ? std::min(part.Whole, Factor(from.End.Point, from.Normal, pieces))
-      : part.Whole;
+    part.Visible = part.Whole;
+    part.Touched = this->Cut(from, s, inside, pieces, part.Visible, rays);
+    part.Visible = std::min(part.Whole, part.Visible);
   }
-  else if (all && this->Blocking->HideAll(apex, part.Piece, pyramid, inside))
+  else if (all && this->CountPanes(inside) == 0 &&
+    this->Blocking->HideAll(apex, part.Piece, pyramid, inside))
   {
     part.Touched = true;
   }
@@ -146,9 +234,8 @@ void SourceView::Sample(const ViewPoint& from, std::size_t s, const ConvexPolygo
     {
       at -= areas[k++];
     }
-    RayEnd to{ TrianglePoint({ piece.P[0], piece.P[k - 1], piece.P[k] }, u[0], u[1]),
-      source.Triangle };
-    const Vec3 r = to.Point - from.End.Point;
+    const Vec3 to = TrianglePoint({ piece.P[0], piece.P[k - 1], piece.P[k] }, u[0], u[1]);
+    const Vec3 r = to - from.End.Point;
     const double r2 = LengthSquared(r);
     const double kernel =
       std::max(0.0, Dot(from.Normal, r)) * std::max(0.0, -Dot(source.Normal, r)) / (r2 * r2);
@@ -156,16 +243,10 @@ void SourceView::Sample(const ViewPoint& from, std::size_t s, const ConvexPolygo
     {
       continue;
     }
-    if (to.Triangle < 0 && this->NearSurface[s])
-    {
-      to.Triangle =
-        this->Occluders.Touching(to.Point, source.Normal, this->Blocking->Rounding());
-      to.Close = to.Triangle < 0 && this->Occluders.TooClose(to.Point);
-    }
     ++result.Rays;
     weights += kernel;
     squares += kernel * kernel;
-    seen += this->Occluders.Occluded(from.End, to) ? 0.0 : kernel;
+    seen += kernel * this->Passing(from, s, to);
   }
   if (!(weights > 0.0))
   {
@@ -195,9 +276,8 @@ SeenSource SourceView::See(const ViewPoint& from, std::size_t s,
   }
   if (known)
   {
-    result.Touched = CutShadows(x, *this->Blocking, known->data(), known->size(), pieces);
-    result.Visible =
-      result.Touched ? std::min(result.Whole, Factor(x, from.Normal, pieces)) : result.Whole;
+    result.Touched = this->Cut(from, s, *known, pieces, result.Visible, result.Rays);
+    result.Visible = std::min(result.Whole, result.Visible);
     return result;
   }
 
@@ -209,7 +289,7 @@ SeenSource SourceView::See(const ViewPoint& from, std::size_t s,
     part.Piece = piece;
     part.Whole = PointToVisiblePolygon(x, from.Normal, piece);
     ++parts;
-    this->Look(from, source, part);
+    this->Look(from, s, part, result.Rays);
     result.Touched = result.Touched || part.Touched;
     if (part.Decided)
     {

@@ -36,8 +36,10 @@ struct ViewPoint
 class SourceView
 {
 public:
-  /// `blockers` null: nothing is in the way.
-  SourceView(const AreaSources& sources, const Blockers* blockers, const OcclusionScene& occluders);
+  /// `blockers` null: nothing is in the way. `band`: of which panes let their share through; -1:
+  /// everything is opaque.
+  SourceView(const AreaSources& sources, const Blockers* blockers, const OcclusionScene& occluders,
+    int band = -1);
 
   /// `inside`: the triangles that may stand between, where they are known to be few; else null.
   SeenSource See(const ViewPoint& from, std::size_t source,
@@ -48,18 +50,34 @@ public:
   /// The most triangles among which a proof is looked for.
   static constexpr std::size_t MostProof = 1024;
 
+  /// The most panes whose shadows are cut out one by one.
+  static constexpr std::size_t MostPanes = 24;
+
+  /// How many of some triangles let light through.
+  std::size_t CountPanes(const std::vector<std::int32_t>& triangles) const;
+  /// True when the shadows of so many triangles are cut out one by one.
+  bool Few(const std::vector<std::int32_t>& triangles) const
+  {
+    return triangles.size() <= MostCut && this->CountPanes(triangles) <= MostPanes;
+  }
+
   const Blockers* GetBlockers() const { return this->Blocking; }
   const AreaSources& GetSources() const { return this->Sources; }
 
 private:
   struct Part;
-  void Look(const ViewPoint& from, const AreaSource& source, Part& part) const;
+  void Look(const ViewPoint& from, std::size_t source, Part& part, std::int64_t& rays) const;
+  bool Cut(const ViewPoint& from, std::size_t source, const std::vector<std::int32_t>& triangles,
+    std::vector<ConvexPolygon>& pieces, double& visible, std::int64_t& rays) const;
+  double Passing(const ViewPoint& from, std::size_t source, const Vec3& to) const;
   void Sample(const ViewPoint& from, std::size_t source, const ConvexPolygon& piece, double whole,
     std::uint64_t key, SeenSource& result) const;
 
   const AreaSources& Sources;
   const Blockers* Blocking;
   const OcclusionScene& Occluders;
+  const std::vector<std::uint8_t>* Panes; // per triangle of the scene; null: all are opaque
+  int Band;
   std::vector<std::uint8_t> NearSurface; // per source: a triangle comes near it
 };
 

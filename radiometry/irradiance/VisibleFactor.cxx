@@ -52,8 +52,9 @@ struct Shadow
     return true;
   }
 
-  /// Adds to `rest` what of `piece` is not in the shadow. False where all of it is lit.
-  bool Cut(const ConvexPolygon& piece, Pieces& rest) const
+  /// Adds to `rest` what of `piece` is not in the shadow, and to `hidden` (or null) what is. False
+  /// where all of it is lit.
+  bool Cut(const ConvexPolygon& piece, Pieces& rest, Pieces* hidden) const
   {
     ConvexPolygon inside = piece;
     ConvexPolygon outside[4];
@@ -73,7 +74,7 @@ struct Shadow
       ConvexPolygon next;
       if (!Split(inside, heights, next, outside[cuts]))
       {
-        return this->CutHalves(piece, rest);
+        return this->CutHalves(piece, rest, hidden);
       }
       if (next.N == 0)
       {
@@ -83,11 +84,15 @@ struct Shadow
       inside = next;
     }
     rest.insert(rest.end(), outside, outside + cuts);
+    if (hidden)
+    {
+      hidden->push_back(inside);
+    }
     return true;
   }
 
   /// The same, where the corners were too many at once.
-  bool CutHalves(const ConvexPolygon& piece, Pieces& rest) const
+  bool CutHalves(const ConvexPolygon& piece, Pieces& rest, Pieces* hidden) const
   {
     ConvexPolygon halves[2];
     const int middle = piece.N / 2;
@@ -102,7 +107,7 @@ struct Shadow
     bool any = false;
     for (const ConvexPolygon& half : halves)
     {
-      if (this->Cut(half, rest))
+      if (this->Cut(half, rest, hidden))
       {
         any = true;
       }
@@ -162,7 +167,7 @@ void PiecesAbove(
 }
 
 bool CutShadows(const Vec3& x, const Blockers& blockers, const std::int32_t* triangles,
-  std::size_t count, Pieces& pieces)
+  std::size_t count, Pieces& pieces, Pieces* hidden)
 {
   static thread_local Pieces rest;
   bool touched = false;
@@ -178,7 +183,7 @@ bool CutShadows(const Vec3& x, const Blockers& blockers, const std::int32_t* tri
     bool cut = false;
     for (const ConvexPolygon& piece : pieces)
     {
-      if (shadow.Cut(piece, rest))
+      if (shadow.Cut(piece, rest, hidden))
       {
         cut = true;
       }

@@ -23,10 +23,10 @@ double Factor(const Vec3& x, const Vec3& n, const Pieces& pieces);
 
 /// Cuts the shadows of triangles out of the pieces, in closed form: seen from x, a triangle hides
 /// what lies inside the three planes through x and its edges and beyond its own plane. Returns
-/// whether anything was hidden.
+/// whether anything was hidden. `hidden`, where given, gets the parts that were cut out.
 ///   Error  rounding only; what lies within rounding of such a plane belongs to both of its sides
 ///   Cost   some 0.1 us for each triangle, and for each piece that it divides
 bool CutShadows(const Vec3& x, const Blockers& blockers, const std::int32_t* triangles,
-  std::size_t count, Pieces& pieces);
+  std::size_t count, Pieces& pieces, Pieces* hidden = nullptr);
 
 } // namespace radiometry

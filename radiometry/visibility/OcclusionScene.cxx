@@ -603,6 +603,11 @@ bool OcclusionScene::HasPanes() const
   return this->Impl->Panes != nullptr;
 }
 
+const std::vector<std::uint8_t>* OcclusionScene::Panes() const
+{
+  return this->Impl->Panes ? &this->Impl->Panes->Panes() : nullptr;
+}
+
 void OcclusionScene::Occluded(
   const RayEnd* from, std::size_t count, const RayEnd& to, std::uint8_t* hidden) const
 {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace radiometry
 {
@@ -59,6 +60,8 @@ public:
   bool VisibleDirection(const RayEnd& from, const Vec3& direction, double* bands) const;
   /// True when some triangle lets light through; the queries above but these two take it as opaque.
   bool HasPanes() const;
+  /// For each triangle of the scene 1 where it lets light through; null where none does.
+  const std::vector<std::uint8_t>* Panes() const;
   /// The same from many starts: hidden[k] is 1 where the segment from from[k] is blocked. Fastest
   /// where neighbours in the list are neighbours in space.
   void Occluded(const RayEnd* from, std::size_t count, const RayEnd& to, std::uint8_t* hidden) const;

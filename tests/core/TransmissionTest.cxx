@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What panes let through along a ray: layers, shared edges, folds, coincident faces, far places.
 #include "radiometry/irradiance/IrradianceSimulation.h"
+#include "radiometry/scene/SkyRadiance.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include "tests/core/TestScenes.h"
@@ -498,6 +499,123 @@ TEST(TransmittedLight, ShadowAndTransmittedLightAreTheUnblockedLight)
     EXPECT_NEAR(through + held, open - dark, 1e-13 * open);
     EXPECT_NEAR(through, share * (open - dark), 1e-12 * open);
     EXPECT_NEAR(flux(1.0 - share, true) - dark, held, 1e-12 * open);
+  }
+}
+
+Light PanelLight(const Scene& scene, const Vec3& at, double size, std::vector<double> exitance)
+{
+  Light light;
+  light.Type = LightType::Area;
+  const Vec3 o = at - scene.Origin;
+  light.Polygon = { o, o + Vec3{ 0, size, 0 }, o + Vec3{ size, size, 0 }, o + Vec3{ size, 0, 0 } };
+  light.Intensity = std::move(exitance);
+  return light;
+}
+
+TEST(TransmittedLight, AreaLightsThroughPanesThatCoverAll)
+{
+  const auto run = [](int panes, const std::vector<double>& share) {
+    Room room(3);
+    for (int k = 0; k < panes; ++k)
+    {
+      room.Pane({ -4, -4, 0.5 + 0.5 * k }, { 12, 0, 0.01 * k }, { 0, 12, 0 }, 1, share);
+    }
+    Scene scene = room.Make({ 0.0, 0.0, 0.0 });
+    scene.Lights = { PanelLight(scene, { 1, 1, 3 }, 1.5, { 5.0, 3.0, 1.0 }) };
+    return Simulate(scene);
+  };
+  const std::vector<double> share{ 0.5, 0.8, 0.0625 };
+  const IrradianceResult open = run(0, share);
+  for (int panes = 1; panes <= 3; ++panes)
+  {
+    const IrradianceResult got = run(panes, share);
+    for (std::size_t c = 0; c < 18; ++c)
+    {
+      for (std::size_t b = 0; b < 3; ++b)
+      {
+        const double want = open.Cells[0].Values[3 * c + b] * std::pow(share[b], panes);
+        EXPECT_NEAR(got.Cells[0].Values[3 * c + b], want, 1e-5 * want) << panes << ' ' << c;
+      }
+    }
+  }
+}
+
+TEST(TransmittedLight, AreaLightsThroughPanesAgainstManyPoints)
+{
+  // Two tinted panes that overlap, an opaque one, and a finely divided one.
+  Room room(1);
+  room.Pane({ 0.5, 0.5, 1.0 }, { 2.0, 0, 0 }, { 0, 2.0, 0 }, 2, { 0.5, 0.25 });
+  room.Pane({ 1.5, 1.5, 1.5 }, { 2.0, 0, 0 }, { 0, 2.0, 0.2 }, 1, { 0.1, 0.0 });
+  room.Pane({ 0.2, 2.5, 0.8 }, { 0.8, 0, 0 }, { 0, 0.8, 0 }, 1, { 0.0, 0.0 });
+  room.Pane({ 2.6, 0.2, 0.7 }, { 1.2, 0, 0 }, { 0, 1.2, 0 }, 12, { 0.7, 0.9 });
+  Scene scene = room.Make({ 0.0, 0.0 });
+  scene.Lights = { PanelLight(scene, { 1, 1, 3 }, 1.5, { 4.0, 7.0 }) };
+  const OcclusionScene occluders(scene);
+  std::vector<SurfacePoint> points;
+  for (int i = 0; i < 14; ++i)
+  {
+    for (int j = 0; j < 14; ++j)
+    {
+      points.push_back({ Vec3{ 0.15 + 0.28 * i, 0.15 + 0.28 * j, 0.1 } - scene.Origin,
+        { 0, 0, 1 }, -1, {}, 0.0 });
+    }
+  }
+  IrradianceOptions options;
+  options.RelativeTolerance = 1e-3;
+  options.Cells = false;
+  const IrradianceResult got = SimulateIrradiance(scene, points, options);
+  const double pi = std::acos(-1.0);
+  double greatest = 0.0;
+  std::size_t within = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const int n = 8000; // of a lattice that no edge runs along
+    std::array<double, 2> sum{ 0.0, 0.0 };
+    std::array<double, 2> pass{};
+    for (int i = 0; i < n; ++i)
+    {
+      const double u = std::fmod(0.5 + 0.7548776662466927 * i, 1.0);
+      const double v = std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
+      const Vec3 y = Vec3{ 1 + 1.5 * u, 1 + 1.5 * v, 3 } - scene.Origin;
+      const Vec3 d = y - points[k].Point;
+      const double r2 = LengthSquared(d);
+      if (occluders.Visible({ points[k].Point, -1 }, { y, -1 }, pass.data()))
+      {
+        for (int b = 0; b < 2; ++b)
+        {
+          sum[b] += pass[b] * scene.Lights[0].Intensity[b] / pi * d.z * d.z / (r2 * r2) *
+            (1.5 * 1.5 / n);
+        }
+      }
+    }
+    for (int b = 0; b < 2; ++b)
+    {
+      const double value = got.Points[0].Values[2 * k + b];
+      within += std::fabs(value - sum[b]) <= got.Points[0].Errors[2 * k + b] + 5e-4 ? 1 : 0;
+      greatest = std::max(greatest, value);
+    }
+  }
+  EXPECT_GT(greatest, 0.15);
+  EXPECT_GE(within, 2 * points.size() * 97 / 100);
+}
+
+TEST(TransmittedLight, SkyThroughPanes)
+{
+  // A pane far wider than the floor under a uniform sky: its share of pi, but for the horizon.
+  Room room(2);
+  room.Pane({ -4e4, -4e4, 1.0 }, { 8e4, 0, 0 }, { 0, 8e4, 0 }, 1, { 0.3, 0.6 });
+  Scene scene = room.Make({ 0.0, 0.0 });
+  Light sky;
+  sky.Type = LightType::Environment;
+  sky.Intensity = { 2.0, 1.0 };
+  sky.Environment = SkyRadiance::Uniform();
+  scene.Lights = { sky };
+  const IrradianceResult got = Simulate(scene);
+  const double pi = std::acos(-1.0);
+  for (std::size_t c = 0; c < room.Floor; ++c)
+  {
+    EXPECT_NEAR(got.Cells[0].Values[2 * c], 0.3 * 2.0 * pi, 0.02 * 0.6 * pi);
+    EXPECT_NEAR(got.Cells[0].Values[2 * c + 1], 0.6 * pi, 0.02 * 0.6 * pi);
   }
 }
 
