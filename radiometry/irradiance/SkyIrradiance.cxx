@@ -4,7 +4,7 @@
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/irradiance/OpenSides.h"
 #include "radiometry/irradiance/SkyTable.h"
-#include "radiometry/visibility/PointStarts.h"
+#include "radiometry/irradiance/VisibleSky.h"
 
 #include <algorithm>
 #include <atomic>
@@ -18,15 +18,9 @@ namespace
 {
 
 constexpr std::uint64_t SkySalt = 0x736b79ull;
-constexpr int Batches = 16;
 constexpr int FirstSamples = 256;
 /// Where no ray has found the sky, more are not spent.
 constexpr int DarkSamples = 2048;
-/// Standard deviations of the mean of Batches batches that hold 95 of 100 (Student, 15 degrees of
-/// freedom: 2.13), and some more: a run that stops when its estimate is small stops early.
-constexpr double Coverage = 2.5;
-/// Of n well spread rays none meets what fills less than some 2/n of what they were chosen from.
-constexpr double Unseen = 2.0;
 
 std::vector<std::unique_ptr<SkyTable>> MakeTables(const Scene& scene)
 {
@@ -45,51 +39,16 @@ std::vector<std::unique_ptr<SkyTable>> MakeTables(const Scene& scene)
   return tables;
 }
 
-/// A flat receiver: a patch, or a point about its normal.
-struct Receiver
-{
-  Vec3 Normal;
-  const Vec3* Corners = nullptr; // what lies on its plane
-  std::size_t Count = 0;
-  Triangle3 Surface; // of a patch
-  std::int32_t Triangle = -1;
-  std::vector<PointStart> Starts; // of a point
-  Vec3 Here;
-
-  /// Where a ray starts, from two numbers; false where a point has no face on that side.
-  bool Start(double u, double v, const Vec3& direction, RayEnd& end) const
-  {
-    if (this->Starts.empty())
-    {
-      end = { TrianglePoint(this->Surface, u, v), this->Triangle };
-      return true;
-    }
-    const auto first = static_cast<std::size_t>(u * static_cast<double>(this->Starts.size()));
-    for (std::size_t s = 0; s < this->Starts.size(); ++s)
-    {
-      const PointStart& start = this->Starts[(first + s) % this->Starts.size()];
-      if (this->Starts.size() == 1 || Dot(start.Normal, direction) > 0.0)
-      {
-        end = start.End;
-        return true;
-      }
-    }
-    return false;
-  }
-};
-
 void Prepare(const Scene&, const OcclusionScene&, const DirectOptions&, const Patch& patch,
-  Receiver& receiver)
+  SkyReceiver& receiver)
 {
-  receiver.Surface = patch.Corners;
+  receiver.Corners = patch.Corners;
   receiver.Triangle = patch.Triangle;
   receiver.Normal = Normalized(AreaNormal2(patch.Corners));
-  receiver.Corners = patch.Corners.data();
-  receiver.Count = 3;
 }
 
 void Prepare(const Scene& scene, const OcclusionScene& occluders, const DirectOptions& options,
-  const SurfacePoint& point, Receiver& receiver)
+  const SurfacePoint& point, SkyReceiver& receiver)
 {
   SurfacePoint p = point;
   if (options.Occlusion && p.Triangle < 0 && p.Around.empty())
@@ -97,10 +56,8 @@ void Prepare(const Scene& scene, const OcclusionScene& occluders, const DirectOp
     p.Triangle = occluders.Touching(p.Point, p.Normal, p.Rounding);
   }
   receiver.Normal = p.Normal;
-  receiver.Here = p.Point;
-  receiver.Corners = &receiver.Here;
+  receiver.Corners[0] = p.Point;
   receiver.Count = 1;
-  receiver.Starts.clear();
   if (options.Occlusion)
   {
     receiver.Starts = PointStarts(scene, occluders, p);
@@ -123,78 +80,6 @@ double WeightOf(const Patch& patch)
 double WeightOf(const SurfacePoint&)
 {
   return 1.0;
-}
-
-/// Visible share of what a sky sends to a receiver, per band (one where no band differs).
-struct VisibleShare
-{
-  std::vector<double> Value;
-  std::vector<double> Error;
-  std::int64_t Rays = 0;
-  bool AllHidden = true;
-};
-
-void FindVisible(const OcclusionScene& occluders, const SkyTable& table, const Receiver& receiver,
-  bool panes, std::uint64_t key, int samples, VisibleShare& share)
-{
-  static thread_local SkyView view;
-  view.Look(table, receiver.Normal);
-  const std::size_t layers =
-    table.Grey() && !panes ? 1 : static_cast<std::size_t>(table.Bands());
-  static thread_local std::vector<double> weight, seen, passed;
-  passed.assign(layers, 1.0);
-  weight.assign(Batches * layers, 0.0);
-  seen.assign(Batches * layers, 0.0);
-  share = {};
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    const SobolSequence sequence(Hash64(key, static_cast<std::uint64_t>(batch)));
-    for (int k = 0; k < samples / Batches; ++k)
-    {
-      const auto u = sequence(static_cast<std::uint32_t>(k));
-      const SkyView::Sample sample = view.Draw(u[0], u[1]);
-      if (!(sample.Weight > 0.0))
-      {
-        continue;
-      }
-      RayEnd from;
-      bool visible = receiver.Start(u[2], u[3], sample.Direction, from);
-      if (visible)
-      {
-        ++share.Rays;
-        visible = panes ? occluders.VisibleDirection(from, sample.Direction, passed.data())
-                        : !occluders.OccludedDirection(from, sample.Direction);
-      }
-      share.AllHidden = share.AllHidden && !visible;
-      for (std::size_t b = 0; b < layers; ++b)
-      {
-        const double w =
-          sample.Weight * (table.Grey() ? 1.0 : view.BandShare(sample, static_cast<int>(b)));
-        weight[batch * layers + b] += w;
-        seen[batch * layers + b] += visible ? w * passed[b] : 0.0;
-      }
-    }
-  }
-  for (std::size_t b = 0; b < layers; ++b)
-  {
-    double all = 0.0;
-    double lit = 0.0;
-    for (int k = 0; k < Batches; ++k)
-    {
-      all += weight[k * layers + b];
-      lit += seen[k * layers + b];
-    }
-    const double value = all > 0.0 ? lit / all : 0.5;
-    double spread = 0.0;
-    for (int k = 0; k < Batches && all > 0.0; ++k)
-    {
-      const double off = (seen[k * layers + b] - value * weight[k * layers + b]) / all;
-      spread += off * off * Batches / (Batches - 1.0);
-    }
-    share.Value.push_back(value);
-    share.Error.push_back(
-      all > 0.0 ? std::min(1.0, std::hypot(Coverage * std::sqrt(spread), Unseen / samples)) : 0.5);
-  }
 }
 
 /// Irradiance with nothing in the way, for each different normal once.
@@ -309,7 +194,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
   std::atomic<bool> expired{ false };
 
   const auto compute = [&](std::size_t i, bool first, bool hasty) {
-    Receiver receiver;
+    SkyReceiver receiver;
     Prepare(scene, occluders, options, receivers[i], receiver);
     weights[i] = WeightOf(receivers[i]);
     const int samples = target[i];
@@ -332,7 +217,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
       if (first && hides)
       {
         const Vec3& up = skies[s]->Frame().Up;
-        known = sides->Open(receiver.Corners, receiver.Count, receiver.Normal,
+        known = sides->Open(receiver.Corners.data(), receiver.Count, receiver.Normal,
                   skies[s]->DarkBelow() ? &up : nullptr)
           ? 1
           : 0;
@@ -342,7 +227,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
       if (!sees && !hasty)
       {
         const std::uint64_t key = Hash64(SkySalt + s, static_cast<std::uint64_t>(i));
-        FindVisible(occluders, *skies[s], receiver, panes, key, samples, share);
+        FindVisibleShare(occluders, *skies[s], receiver, panes, key, samples, share);
         rays += share.Rays;
         sampled = true;
         hidden = hidden && share.AllHidden;

@@ -257,17 +257,19 @@ SkyTable::Span SkyTable::Visible(const Vec3& n, int r) const
   // No point of a pixel's edge is farther from the plane than its middle by more than this.
   const double reach = 1.05 * Pi * (out * row.Cos / this->Columns + 0.5 / this->Rows);
   Span span;
-  if (level - swing >= reach)
-  {
-    span.Count = this->Columns;
-    return span;
-  }
   if (level + swing <= -reach)
   {
     return span;
   }
+  // Every row begins behind the plane's back, so that neighbours in a row's share are neighbours.
   const double step = 2.0 * Pi / this->Columns;
   const double middle = (std::atan2(n.x, n.y) + Pi) / step - 0.5;
+  if (level - swing >= reach)
+  {
+    span.Begin = static_cast<int>(std::ceil(middle - 0.5 * this->Columns));
+    span.Count = this->Columns;
+    return span;
+  }
   // Half-widths, in columns, of what is surely above and of what may be.
   const auto halfWidth = [&](double height) {
     return swing > 0.0 ? std::acos(std::clamp((height - level) / swing, -1.0, 1.0)) / step
@@ -317,8 +319,13 @@ double SkyTable::Pixel(
   const double middle = (n.z * row.Up + out * row.Out) / row.SolidAngle;
   const double a = 0.5 * width * std::fabs(across) * row.Cos;
   const double b = 0.5 * row.Height * std::fabs(n.z * row.Cos - out * row.Sin);
-  // A horizon along an edge: the middle of a curved pixel is lower than that of a flat one.
-  whole = middle > 0.0 && middle >= (1.0 - 0.25 * row.Height) * (a + b);
+  // A horizon along an edge: the middle of a curved pixel is nearer to it than that of a flat one.
+  const double along = (1.0 - 0.25 * row.Height) * (a + b);
+  whole = middle > 0.0 && middle >= along;
+  if (middle < 0.0 && middle <= -along)
+  {
+    return 0.0;
+  }
   return ClippedMean(middle, a, b);
 }
 

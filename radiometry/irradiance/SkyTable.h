@@ -131,7 +131,8 @@ public:
 
 private:
   const SkyTable* Table = nullptr;
-  Vec3 Normal; // in the sky's frame
+  Vec3 Normal;       // in the sky's frame
+  bool Even = false; // the same radiance from everywhere
   std::vector<double> Cumulative; // of the rows' strengths
   std::vector<SkyTable::Span> Spans;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/SkyTable.h"
 
+#include "radiometry/geometry/Sampling.h"
 #include "radiometry/scene/Units.h"
 
 #include <algorithm>
@@ -42,8 +43,14 @@ void SkyView::Look(const SkyTable& table, const Vec3& normal)
 {
   this->Table = &table;
   this->Normal = table.Axes.ToSky(normal);
+  this->Even = table.Sky().Model() == SkyModel::Uniform;
   this->Spans.clear();
   this->Cumulative.clear();
+  if (this->Even)
+  {
+    this->Cumulative.assign(1, units::Pi * table.TotalIntensity());
+    return;
+  }
   double sum = 0.0;
   double crossing = 0.0;
   for (int r = 0; r < table.Rows; ++r)
@@ -59,6 +66,12 @@ SkyView::Sample SkyView::Draw(double u, double v) const
   Sample sample;
   const SkyTable& t = *this->Table;
   const Vec3& n = this->Normal;
+  if (this->Even)
+  {
+    sample.Direction = t.Axes.ToWorld(CosineDirection(n, u, v));
+    sample.Weight = 1.0;
+    return sample;
+  }
   const auto found = std::upper_bound(
     this->Cumulative.begin(), this->Cumulative.end(), u * this->Cumulative.back());
   if (found == this->Cumulative.end())
