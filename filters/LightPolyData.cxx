@@ -4,6 +4,7 @@
 #include "SkyFieldData.h"
 #include "WebFieldData.h"
 
+#include "radiometry/geometry/ConvexPolygon.h"
 #include "radiometry/geometry/PolygonTriangulation.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
@@ -204,7 +205,9 @@ void WriteLights(const std::vector<radiometry::LightRecord>& lights, int bands, 
       ambient->SetComponent(i, b, 0.0);
       specular->SetComponent(i, b, light.Intensity[b]);
     }
-    Set(direction, i, light.Direction);
+    Set(direction, i, IsArea(light) ? radiometry::Normalized(radiometry::AreaNormal2(
+                                        light.Polygon.data(), light.Polygon.size()))
+                                    : light.Direction);
     Set(reference, i, light.Reference);
     cutoff->SetValue(i, light.SpotCutoff);
     inner->SetValue(i, light.SpotInnerCutoff);

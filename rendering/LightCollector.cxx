@@ -6,9 +6,11 @@
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/Light.h"
 
+#include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
+#include "vtkIdList.h"
 #include "vtkFieldData.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
@@ -182,6 +184,22 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
       result.Problem = text.str();
     }
   };
+  // Area lights: once a polygon, not once a corner.
+  std::vector<char> isCorner(static_cast<std::size_t>(data->GetNumberOfPoints()), 0);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; type && c < data->GetNumberOfPolys(); ++c)
+  {
+    data->GetPolys()->GetCellAtId(c, ids);
+    for (const vtkIdType p : *ids)
+    {
+      isCorner[p] = 1;
+    }
+    const vtkIdType first = ids->GetNumberOfIds() > 0 ? ids->GetId(0) : -1;
+    if (first >= 0 && type.Value(first, 0.0) == 3.0 && enabled.Value(first, 1.0) != 0.0)
+    {
+      ++result.NotDrawn;
+    }
+  }
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     if (enabled.Value(i, 1.0) == 0.0)
@@ -189,6 +207,10 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
       continue;
     }
     const double kind = type.Value(i, 0.0);
+    if (kind == 3.0 && isCorner[i])
+    {
+      continue; // its polygon counts, below
+    }
     if (kind == 3.0 || kind == 4.0)
     {
       ++result.NotDrawn;

@@ -32,6 +32,21 @@ bool Same(const Corner& a, const Corner& b)
   return a.u == b.u && a.v == b.v;
 }
 
+/// The greatest area vector of the first corner with two others.
+Vec3 WidestTurn(const std::vector<Vec3>& corners)
+{
+  Vec3 widest;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < corners.size(); ++j)
+    {
+      const Vec3 c = Cross(corners[i] - corners[0], corners[j] - corners[0]);
+      widest = LengthSquared(c) > LengthSquared(widest) ? c : widest;
+    }
+  }
+  return widest;
+}
+
 /// True when the inner points of two edges cross (touching and overlapping edges do not).
 bool Cross2(const Corner& a, const Corner& b, const Corner& c, const Corner& d)
 {
@@ -93,15 +108,18 @@ std::vector<Triangle3> TriangulatePolygon(
     extent = std::max(extent, Length(c - distinct[0]));
   }
   const Vec3 area2 = AreaNormal2(distinct.data(), distinct.size()) / (extent * extent);
-  if (!(Length(area2) > 1e-15))
-  {
-    return {};
-  }
+  const bool flat = Length(area2) > 1e-15;
   if (distinct.size() == 3)
   {
-    return { { distinct[0], distinct[1], distinct[2] } };
+    return flat ? std::vector<Triangle3>{ { distinct[0], distinct[1], distinct[2] } }
+                : std::vector<Triangle3>{};
   }
-  const Vec3 n = Normalized(area2);
+  // A figure of eight has no area vector, but a plane.
+  const Vec3 n = Normalized(flat ? area2 : WidestTurn(distinct));
+  if (n == Vec3{})
+  {
+    return {}; // all on one line
+  }
   Vec3 s, t;
   Frame(n, s, t);
   std::vector<Corner> ring;
@@ -127,6 +145,11 @@ std::vector<Triangle3> TriangulatePolygon(
           "a polygon whose edges do not cross (the value is the first edge that does)");
       }
     }
+  }
+
+  if (!flat)
+  {
+    return {};
   }
 
   std::vector<Triangle3> triangles;

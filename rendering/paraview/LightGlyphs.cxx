@@ -8,6 +8,7 @@
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace vtkradiometry
 {
@@ -111,9 +113,66 @@ void DrawDirectional(Lines& lines, const Vec3& p, const Vec3& axis, double size)
   }
 }
 
+/// The rim of an area light, and from its middle an arrow to each side on which it shines.
+void DrawPolygon(Lines& lines, const std::vector<Vec3>& corners, bool twoSided, double size)
+{
+  Vec3 middle;
+  Vec3 normal;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    const Vec3& next = corners[(k + 1) % corners.size()];
+    lines.Segment(corners[k], next);
+    middle += corners[k] / static_cast<double>(corners.size());
+    normal += Cross(corners[k] - corners[0], next - corners[0]);
+  }
+  const Vec3 axis = radiometry::Normalized(normal);
+  Vec3 u;
+  Vec3 v;
+  Frame(axis, u, v);
+  for (int side = 0; side < (twoSided ? 2 : 1); ++side)
+  {
+    const Vec3 along = side == 0 ? axis : -axis;
+    const Vec3 tip = middle + 0.5 * size * along;
+    lines.Segment(middle, tip);
+    for (const Vec3& wing : { u, v, -u, -v })
+    {
+      lines.Segment(tip, tip - 0.15 * size * along + 0.06 * size * wing);
+    }
+  }
+}
+
+/// The polygons of a data set whose points are corners of area lights.
+void DrawAreas(vtkPolyData* data, double size, Lines& lines)
+{
+  namespace names = radiometry::names;
+  vtkDataArray* type = data->GetPointData()->GetArray(names::LightType);
+  vtkDataArray* enabled = data->GetPointData()->GetArray(names::LightEnabled);
+  vtkDataArray* twoSided = data->GetPointData()->GetArray(names::LightTwoSided);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; type && c < data->GetNumberOfPolys(); ++c)
+  {
+    data->GetPolys()->GetCellAtId(c, ids);
+    std::vector<Vec3> corners;
+    bool drawn = ids->GetNumberOfIds() > 2;
+    for (const vtkIdType p : *ids)
+    {
+      double x[3];
+      data->GetPoint(p, x);
+      corners.push_back({ x[0], x[1], x[2] });
+      drawn = drawn && type->GetComponent(p, 0) == static_cast<double>(LightType::Area) &&
+        IsFinite(corners.back());
+    }
+    if (drawn && (!enabled || enabled->GetComponent(ids->GetId(0), 0) != 0.0))
+    {
+      DrawPolygon(lines, corners, twoSided && twoSided->GetComponent(ids->GetId(0), 0) != 0.0, size);
+    }
+  }
+}
+
 void DrawAll(vtkPolyData* data, double size, Lines& lines)
 {
   namespace names = radiometry::names;
+  DrawAreas(data, size, lines);
   const auto value = [data](const char* name, vtkIdType i, int component, double absent) {
     vtkDataArray* array = data->GetPointData()->GetArray(name);
     return array && component < array->GetNumberOfComponents() ? array->GetComponent(i, component)

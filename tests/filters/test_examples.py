@@ -75,6 +75,7 @@ def lit(reader, light):
     irradiance = vtkIrradianceFilter()
     irradiance.SetInputData(reader.GetOutput(0))
     irradiance.AddLightsConnection(light.GetOutputPort())
+    irradiance.SetEmission(2)  # the scenes' own panels
     irradiance.Update()
     out = irradiance.GetOutputDataObject(0).GetCellData()
     return array(out, "Irradiance").reshape(out.GetNumberOfTuples(), -1)[:, 0]
