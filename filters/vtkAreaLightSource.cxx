@@ -157,7 +157,7 @@ double vtkAreaLightSource::Describe(radiometry::LightRecord& light, bool& photom
 }
 
 void vtkAreaLightSource::AddFurther(
-  std::vector<radiometry::LightRecord>& lights, const std::vector<double>&) const
+  std::vector<radiometry::LightRecord>& lights, const std::vector<double>&)
 {
   std::vector<radiometry::LightRecord> found;
   this->FindPolygons(found);

@@ -109,7 +109,7 @@ protected:
     vtkInformation* request, vtkInformationVector** in, vtkInformationVector* out) override;
   double Describe(radiometry::LightRecord& light, bool& photometric) override;
   void AddFurther(std::vector<radiometry::LightRecord>& lights,
-    const std::vector<double>& factors) const override;
+    const std::vector<double>& factors) override;
 
   int Shape = Rectangle;
   double Width = 1.0;
