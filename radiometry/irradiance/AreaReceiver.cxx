@@ -281,7 +281,7 @@ void AreaReceiver::Evaluate(
       const auto u = sequence(static_cast<std::uint32_t>(i));
       const Vec3 b = TrianglePoint({ Vec3{ 1, 0, 0 }, Vec3{ 0, 1, 0 }, Vec3{ 0, 0, 1 } }, u[0], u[1]);
       const Vec3 x = c[0] + b.y * (c[1] - c[0]) + b.z * (c[2] - c[0]);
-      const SeenSource seen = this->View.See({ { x, patch.Triangle }, n, {} }, part.Source,
+      const SeenSource seen = this->View.See({ x, { x, patch.Triangle }, n, {} }, part.Source,
         few ? &part.Inside : nullptr, WorkASample,
         Hash64(partKey, static_cast<std::uint64_t>(64 + set * SampleMean::Each + i)));
       rays += seen.Rays;

@@ -112,7 +112,7 @@ std::vector<ViewPoint> AreaStage::Places(const SurfacePoint& point) const
   {
     for (const PointStart& start : PointStarts(this->Geometry, this->Occluders, point))
     {
-      places.push_back({ start.End, point.Normal, start.Normal });
+      places.push_back({ start.End.Point, start.End, point.Normal, start.Normal });
     }
     return places;
   }
@@ -122,7 +122,15 @@ std::vector<ViewPoint> AreaStage::Places(const SurfacePoint& point) const
     end.Triangle = this->Occluders.Touching(end.Point, point.Normal, point.Rounding);
     end.Close = end.Triangle < 0 && this->Occluders.TooClose(end.Point);
   }
-  places.push_back({ end, point.Normal, {} });
+  Vec3 place = point.Point;
+  if (point.Triangle < 0 && end.Triangle >= 0)
+  {
+    // Onto the triangle's plane, but not off its rim.
+    const Vec3 n =
+      Normalized(AreaNormal2(this->Geometry.TriangleAt(static_cast<std::size_t>(end.Triangle))));
+    place += Dot(n, end.Point - place) * n;
+  }
+  places.push_back({ place, end, point.Normal, {} });
   return places;
 }
 

@@ -13,6 +13,14 @@ namespace
 {
 
 constexpr int RaysAPart = 8;
+/// Less than this of a source is what rounding left between shadows.
+constexpr double Crack = 1e-12;
+
+/// What is left of `whole` past shadows, given the sum of the pieces.
+double Left(double sum, double whole)
+{
+  return sum <= Crack * whole ? 0.0 : std::min(sum, whole);
+}
 
 /// Two halves of a convex polygon, across its longest extent from one corner.
 void Halve(const ConvexPolygon& piece, ConvexPolygon halves[2])
@@ -117,7 +125,7 @@ bool SourceView::Cut(const ViewPoint& from, std::size_t s,
   const std::vector<std::int32_t>& triangles, std::vector<ConvexPolygon>& pieces, double& visible,
   std::int64_t& rays) const
 {
-  const Vec3& x = from.End.Point;
+  const Vec3& x = from.Place;
   if (this->CountPanes(triangles) == 0)
   {
     const bool touched =
@@ -177,9 +185,9 @@ void SourceView::Look(
   const AreaSource& source = this->Sources[s];
   static thread_local std::vector<std::int32_t> inside;
   ConvexPolygon apex;
-  apex.Add(from.End.Point);
+  apex.Add(from.Place);
   Shaft pyramid(apex, part.Piece, this->Blocking->Rounding());
-  pyramid.Add(from.Normal, from.End.Point);
+  pyramid.Add(from.Normal, from.Place);
   // Before the source's own plane, exactly: a piece of it may be too thin to tell.
   pyramid.Add(source.Normal, source.Outline.P[0]);
   inside.clear();
@@ -196,7 +204,7 @@ void SourceView::Look(
     pieces.assign(1, part.Piece);
     part.Visible = part.Whole;
     part.Touched = this->Cut(from, s, inside, pieces, part.Visible, rays);
-    part.Visible = std::min(part.Whole, part.Visible);
+    part.Visible = Left(part.Visible, part.Whole);
   }
   else if (all && this->CountPanes(inside) == 0 &&
     this->Blocking->HideAll(apex, part.Piece, pyramid, inside))
@@ -235,7 +243,7 @@ void SourceView::Sample(const ViewPoint& from, std::size_t s, const ConvexPolygo
       at -= areas[k++];
     }
     const Vec3 to = TrianglePoint({ piece.P[0], piece.P[k - 1], piece.P[k] }, u[0], u[1]);
-    const Vec3 r = to - from.End.Point;
+    const Vec3 r = to - from.Place;
     const double r2 = LengthSquared(r);
     const double kernel =
       std::max(0.0, Dot(from.Normal, r)) * std::max(0.0, -Dot(source.Normal, r)) / (r2 * r2);
@@ -265,7 +273,7 @@ SeenSource SourceView::See(const ViewPoint& from, std::size_t s,
 {
   static thread_local Pieces pieces;
   const AreaSource& source = this->Sources[s];
-  const Vec3& x = from.End.Point;
+  const Vec3& x = from.Place;
   SeenSource result;
   PiecesAbove(x, from.Normal, from.Horizon, source, pieces);
   result.Whole = Factor(x, from.Normal, pieces);
@@ -277,7 +285,7 @@ SeenSource SourceView::See(const ViewPoint& from, std::size_t s,
   if (known)
   {
     result.Touched = this->Cut(from, s, *known, pieces, result.Visible, result.Rays);
-    result.Visible = std::min(result.Whole, result.Visible);
+    result.Visible = Left(result.Visible, result.Whole);
     return result;
   }
 

@@ -23,7 +23,8 @@ struct SeenSource
 /// A place from which sources are looked at.
 struct ViewPoint
 {
-  RayEnd End;   // where it lies, and on which triangle
+  Vec3 Place;
+  RayEnd End;   // from where rays start: the place, perhaps moved a little from a triangle's rim
   Vec3 Normal;  // that irradiance is about
   Vec3 Horizon; // unit; nothing is seen below this plane through the point; zero: none
 };

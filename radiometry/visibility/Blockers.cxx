@@ -121,6 +121,52 @@ bool Blockers::Parts(
   return Side(receiver, n, through, this->Tolerance) * Side(light, n, through, this->Tolerance) < 0;
 }
 
+/// True where the triangle passes through the inside of a polygon.
+bool Blockers::Cuts(std::int32_t t, const ConvexPolygon& polygon) const
+{
+  const Vec3 n = Normalized(AreaNormal2(polygon.P, static_cast<std::size_t>(polygon.N)));
+  const Triangle3& v = this->Triangles[t];
+  Segment3 cut;
+  int ends = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double a = Dot(n, v[k] - polygon.P[0]);
+    const double b = Dot(n, v[(k + 1) % 3] - polygon.P[0]);
+    if ((a > this->Tolerance && b <= this->Tolerance) ||
+      (b > this->Tolerance && a <= this->Tolerance))
+    {
+      // Where an edge leaves the side above: at most two do.
+      const Vec3 p = v[k] + std::clamp(a / (a - b), 0.0, 1.0) * (v[(k + 1) % 3] - v[k]);
+      (ends++ == 0 ? cut.A : cut.B) = p;
+    }
+  }
+  if (ends < 2 || Side(ConvexPolygon(v), n, polygon.P[0], this->Tolerance) != 0)
+  {
+    return false;
+  }
+  double lo = 0.0;
+  double hi = 1.0;
+  for (int k = 0; k < polygon.N; ++k)
+  {
+    const Vec3 inward = Normalized(Cross(n, polygon.P[(k + 1) % polygon.N] - polygon.P[k]));
+    const double a = Dot(inward, cut.A - polygon.P[k]) - this->Tolerance;
+    const double b = Dot(inward, cut.B - polygon.P[k]) - this->Tolerance;
+    if (a <= 0.0 && b <= 0.0)
+    {
+      return false;
+    }
+    if (a <= 0.0)
+    {
+      lo = std::max(lo, a / (a - b));
+    }
+    else if (b <= 0.0)
+    {
+      hi = std::min(hi, a / (a - b));
+    }
+  }
+  return lo < hi;
+}
+
 bool Blockers::Covers(
   std::int32_t t, const ConvexPolygon& receiver, const ConvexPolygon& light) const
 {
@@ -181,14 +227,16 @@ bool Blockers::HideAll(const ConvexPolygon& receiver, const ConvexPolygon& light
   bool closed = !inside.empty();
   for (const std::int32_t t : inside)
   {
-    if (!this->Parts(t, receiver, light))
+    if (this->Parts(t, receiver, light))
     {
-      closed = false;
-      continue;
+      if (this->Covers(t, receiver, light))
+      {
+        return true;
+      }
     }
-    if (this->Covers(t, receiver, light))
+    else if (closed)
     {
-      return true;
+      closed = (receiver.N < 3 || !this->Cuts(t, receiver)) && !this->Cuts(t, light);
     }
     for (int k = 0; k < 3 && closed; ++k)
     {

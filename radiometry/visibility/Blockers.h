@@ -34,12 +34,13 @@ public:
   /// touches their shaft.
   ///   Either  one triangle stands across all segments between corners (the crossings of a plane
   ///           by segments between two convex sets lie in the hull of those of their corners)
-  ///   Or      each triangle parts receiver and light, and every edge inside the shaft has triangles
-  ///           on both of its sides as seen from all of the receiver: then nothing begins or ends
+  ///   Or      no triangle cuts through receiver or light, and every edge inside the shaft has
+  ///           triangles on both of its sides as seen from all of the receiver: nothing begins or ends
   bool HideAll(const ConvexPolygon& receiver, const ConvexPolygon& light, const Shaft& shaft,
     const std::vector<std::int32_t>& inside) const;
 
 private:
+  bool Cuts(std::int32_t t, const ConvexPolygon& polygon) const;
   bool Parts(std::int32_t t, const ConvexPolygon& receiver, const ConvexPolygon& light) const;
   bool Covers(std::int32_t t, const ConvexPolygon& receiver, const ConvexPolygon& light) const;
   bool Closed(std::int32_t edge, const Segment3& s, const ConvexPolygon& receiver) const;
