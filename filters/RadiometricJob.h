@@ -40,6 +40,14 @@ struct vtkRadiometricFilter::Result
   std::vector<Quantity> Points; // as Job::Points
   radiometry::ConvergenceRecord Convergence;
   std::vector<radiometry::EffectDecision> Effects; // by Effect
+  /// Further rows of the EffectPlan: what was left out beside the effects.
+  struct Omission
+  {
+    std::string Name;
+    std::string Why;
+    double Bound; // W/m^2
+  };
+  std::vector<Omission> Omissions;
   std::vector<std::pair<std::string, double>> ErrorParts; // mean over the surface, W/m^2
   std::string Outcome;
   std::string Method; // and why

@@ -212,6 +212,10 @@ void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) con
       d.Simulated ? "simulated" : (d.Present ? "left out" : "not needed"), d.Why, d.Bound,
       d.Seconds);
   }
+  for (const Result::Omission& o : result.Omissions)
+  {
+    add(o.Name, "left out", o.Why, o.Bound, 0.0);
+  }
   for (const auto& [name, value] : result.ErrorParts)
   {
     add(name, "estimated", "its part of IrradianceError, averaged over the surface", value, 0.0);

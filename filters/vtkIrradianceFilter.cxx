@@ -7,6 +7,7 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 
 vtkStandardNewMacro(vtkIrradianceFilter);
@@ -47,6 +48,14 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   result.Convergence = std::move(computed.Convergence);
   result.Effects = std::move(computed.Effects);
   result.Outcome = computed.Outcome;
+  if (computed.DroppedPeak > 0.0)
+  {
+    std::ostringstream why;
+    why << "lights whose bounds together are small beside the tolerance are left out value by value; "
+           "what they may add is part of IrradianceError, on average "
+        << computed.DroppedMean << " W/m^2";
+    result.Omissions.push_back({ "WeakLights", why.str(), computed.DroppedPeak });
+  }
   if (options.RefineShadowBoundaries)
   {
     const radiometry::ShadowPieces& pieces = computed.Pieces;

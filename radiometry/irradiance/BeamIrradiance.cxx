@@ -121,6 +121,10 @@ public:
       dropped += d;
       most = std::max(most, static_cast<double>(d));
     }
+    if (most > 0.0)
+    {
+      this->Result.Dropped = std::move(this->Dropped);
+    }
     this->Result.DroppedPeak += most;
     this->Result.DroppedMean += dropped / static_cast<double>(this->Patches.size());
   }

@@ -33,6 +33,7 @@ struct DirectResult
   int Bands = 1;
   std::vector<double> Irradiance; // patches (points) x bands, W/m^2
   std::vector<double> Error;      // the same shape
+  std::vector<float> Dropped;     // of each patch, the bound on lights left out of it; empty: none
   double DroppedPeak = 0.0;       // greatest bound on lights left out of a value: part of its Error
   double DroppedMean = 0.0;       // the mean of those bounds, W/m^2
   double PeakUnshadowed = 0.0;    // greatest value, were nothing in the way, of any band

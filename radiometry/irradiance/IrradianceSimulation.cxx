@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace radiometry
 {
@@ -44,19 +45,15 @@ std::vector<Patch> MakePatches(const Scene& scene, int side)
   return patches;
 }
 
-FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches, int side,
-  const std::vector<double>& values, const std::vector<double>& errors)
-{
-  return AverageOver(scene.Cells, scene.Optics.Bands, patches, side, values, errors);
-}
-
 FieldValues AverageOver(std::size_t count, int bandCount, const std::vector<Patch>& patches,
-  int side, const std::vector<double>& values, const std::vector<double>& errors)
+  int side, const std::vector<double>& values, const std::vector<double>& errors,
+  const std::vector<float>& dropped)
 {
   const auto bands = static_cast<std::size_t>(bandCount);
   FieldValues out;
   out.Values.assign(count * bands, 0.0);
   out.Errors.assign(count * bands, 0.0);
+  std::vector<double> together(dropped.empty() ? 0 : count * bands, 0.0);
   std::vector<double> areas(count, 0.0);
   for (const Patch& p : patches)
   {
@@ -72,10 +69,20 @@ FieldValues AverageOver(std::size_t count, int bandCount, const std::vector<Patc
     const double share = Area(patches[i].Corners) / areas[cell];
     for (std::size_t b = 0; b < bands; ++b)
     {
+      const double error = errors[i * bands + b];
+      const double common = dropped.empty() ? 0.0 : std::min<double>(error, dropped[i]);
+      double& independent = out.Errors[cell * bands + b];
+      independent = std::hypot(independent, share * (error - common));
       out.Values[cell * bands + b] += share * values[i * bands + b];
-      const double error = share * errors[i * bands + b];
-      out.Errors[cell * bands + b] = std::hypot(out.Errors[cell * bands + b], error);
+      if (!dropped.empty())
+      {
+        together[cell * bands + b] += share * common;
+      }
     }
+  }
+  for (std::size_t k = 0; k < together.size(); ++k)
+  {
+    out.Errors[k] += together[k];
   }
   return out;
 }
@@ -150,6 +157,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;
   bool timedOut = false;
   double peak = 0.0;
+  std::int64_t rays = 0;
   const auto limit = [&] {
     if (options.TimeBudget > 0.0)
     {
@@ -179,13 +187,20 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
     limit();
     const DirectResult r = ComputeDirectIrradiance(scene, occluders, patches, direct,
       { monitor, begin, middle, "direct light" }, &result.Convergence);
+    // Without time for shadows all errors are of one kind and add up.
+    const std::vector<float> common = r.TimedOut
+      ? std::vector<float>(patches.size(), std::numeric_limits<float>::max())
+      : r.Dropped;
     for (int side = 0; side < sides; ++side)
     {
       result.Cells[side] =
-        AverageOver(items, scene.Optics.Bands, patches, side, r.Irradiance, r.Error);
+        AverageOver(items, scene.Optics.Bands, patches, side, r.Irradiance, r.Error, common);
     }
     timedOut = r.TimedOut;
     peak = r.PeakUnshadowed;
+    rays = r.Rays;
+    result.DroppedPeak = r.DroppedPeak;
+    result.DroppedMean = r.DroppedMean;
   }
   for (int side = 0; side < sides && !points.empty(); ++side)
   {
@@ -200,9 +215,19 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
         middle + (0.98 - middle) * (side + 1) / sides, "direct light at points" },
       side == 0 ? &result.Convergence : nullptr);
     peak = std::max(peak, r.PeakUnshadowed);
+    rays += r.Rays;
+    result.DroppedPeak = std::max(result.DroppedPeak, r.DroppedPeak);
+    result.DroppedMean = std::max(result.DroppedMean, r.DroppedMean);
     result.Points[side] = { std::move(r.Irradiance), std::move(r.Error) };
   }
-  plan[Effect::Occlusion].Seconds = result.Convergence.Elapsed();
+  EffectDecision& occlusion = plan[Effect::Occlusion];
+  occlusion.Seconds = result.Convergence.Elapsed();
+  if (occlusion.Simulated)
+  {
+    const std::size_t values = (options.Cells ? scene.Cells : 0) + points.size();
+    occlusion.Why +=
+      "; " + std::to_string(rays) + " rays for " + std::to_string(values) + " cells and points";
+  }
 
   BoundLeftOut(scene, occluders, peak, options.Threads, plan);
   for (int k = 0; k < EffectCount; ++k)

@@ -42,6 +42,8 @@ struct IrradianceResult
   std::vector<EffectDecision> Effects;
   ConvergenceRecord Convergence;
   std::string Outcome; // what ended the run
+  double DroppedPeak = 0.0; // greatest bound on weak lights that a value left out: part of its error,
+  double DroppedMean = 0.0; // and the mean over the values, W/m^2
   ShadowPieces Pieces; // empty unless shadows' edges were refined
 };
 
@@ -52,12 +54,12 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
 /// One patch for each receiving triangle, of side 0 or 1; side 1 only where cells are two-sided.
 std::vector<Patch> MakePatches(const Scene& scene, int side);
 
-/// Area-weighted means over the patches of one side of each cell; errors of patches are independent.
-FieldValues AverageOverCells(const Scene& scene, const std::vector<Patch>& patches, int side,
-  const std::vector<double>& values, const std::vector<double>& errors);
-/// The same where Patch::Cell numbers pieces of the surface, `count` of them.
+/// Area-weighted means over the patches of one side of each of `count` items (Patch::Cell: cells, or
+/// pieces of them). Errors of patches are independent, but for the part of each that is a bound on
+/// lights left out (`dropped`, by patch; empty: none): those add up.
 FieldValues AverageOver(std::size_t count, int bands, const std::vector<Patch>& patches, int side,
-  const std::vector<double>& values, const std::vector<double>& errors);
+  const std::vector<double>& values, const std::vector<double>& errors,
+  const std::vector<float>& dropped = {});
 
 /// Bounds what a plan left out, from the greatest unshadowed irradiance that the run met (below 0:
 /// not known). What only the effects left out need is computed here, without a ray.

@@ -200,6 +200,40 @@ def test_several_inputs_of_lights_add_up():
     close(lux, 683.002 * (0.2126 * parts[0] + parts[2]), 1e-12)
 
 
+def test_plan_says_which_weak_lights_were_left_out():
+    # One lamp near the floor and two thousand far away that together cannot matter.
+    data = floor(8)
+    rng = np.random.default_rng(1)
+    strong = {"position": (0, 0, 1), "Intensity": 100.0}
+    weak = [{"position": tuple(p), "Intensity": 1e-3}
+            for p in 50.0 + 10.0 * rng.random((2000, 3))]
+    f = simulation(vtkIrradianceFilter, data, Lights(strong, *weak))
+    got = cell_values(f, "Irradiance")
+    plan = f.GetOutputDataObject(1)
+    names = [plan.GetColumnByName("Effect").GetValue(i) for i in range(plan.GetNumberOfRows())]
+    k = names.index("WeakLights")
+    assert plan.GetColumnByName("Decision").GetValue(k) == "left out"
+    why = plan.GetColumnByName("Why").GetValue(k)
+    assert "IrradianceError" in why and "W/m^2" in why, why
+    bound = plan.GetColumnByName("Bound").GetValue(k)
+    exact = values(data, Lights(strong), RelativeTolerance=0.0) + \
+        values(data, Lights(*weak), RelativeTolerance=0.0)
+    errors = array(f.GetOutputDataObject(0).GetCellData(), "IrradianceError")
+    # Float rounding of the bounds; rounding of values of 100 beside lights of 1e-4.
+    assert (np.abs(got - exact) <= 1.000001 * errors + 1e-12).all()
+    assert 0.0 < bound <= 0.01 * got.max()
+    occlusion = plan.GetColumnByName("Why").GetValue(names.index("Occlusion"))
+    # One lamp: nothing is left out, no row.
+    f = simulation(vtkIrradianceFilter, data, Lights(strong))
+    f.Update()
+    plan = f.GetOutputDataObject(1)
+    assert plan.GetNumberOfRows() == 9
+    f = simulation(vtkIrradianceFilter, data, Lights(strong), Occlusion=1)
+    f.Update()
+    why = f.GetOutputDataObject(1).GetColumnByName("Why").GetValue(names.index("Occlusion"))
+    assert "rays for 64 cells" in why, (occlusion, why)
+
+
 def test_global_ambient_reaches_every_value():
     data = floor(2)
     lamp = Lights({"position": (0, 0, -1), "Intensity": 2.0})  # below: the front is dark
