@@ -24,18 +24,16 @@ struct Round
 };
 constexpr std::size_t AllLights = std::numeric_limits<std::size_t>::max();
 
-/// Rounds of growing effort on what is not yet good enough. With many lights the first ones ask
-/// some of them only; with a time budget they begin with very few.
+/// Rounds of growing effort on what is not yet good enough; with a time budget the first ones ask
+/// few of many lights.
 std::vector<Round> PlanRounds(std::size_t lights, bool hurried)
 {
   std::vector<Round> rounds;
-  int work = 1;
-  for (std::size_t some = hurried ? 8 : 64; 2 * some < lights; some *= 8)
+  for (std::size_t some = 8; hurried && 2 * some < lights; some *= 8)
   {
-    rounds.push_back({ some, work });
-    work = std::min(512, 8 * work);
+    rounds.push_back({ some, 1 });
   }
-  for (work = rounds.empty() ? 1 : 64; work <= 4096; work *= work == 1 ? 64 : 8)
+  for (const int work : { 1, 64, 512, 4096 })
   {
     rounds.push_back({ AllLights, work });
   }
@@ -162,6 +160,7 @@ private:
     }
     block.Blind = first && this->Expired;
     LightEffort effort;
+    effort.FirstLook = std::min<std::size_t>(32, round.Lights);
     effort.Lights = block.Blind ? std::min<std::size_t>(4, round.Lights) : round.Lights;
     effort.RelativeTolerance = this->Options.RelativeTolerance;
     effort.AbsoluteTolerance = this->Options.AbsoluteTolerance;

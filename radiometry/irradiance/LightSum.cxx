@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace radiometry
 {
@@ -13,6 +14,11 @@ namespace
 
 /// The share of a value's tolerance that lights left out may use up.
 constexpr double DroppedShare = 0.25;
+/// ... and the error of samples.
+constexpr double SampledShare = 0.7;
+/// So many samples are drawn at most, and at least before their spread means much.
+constexpr std::size_t MostSamples = 4096;
+constexpr std::size_t LeastSamples = 32;
 /// Independent systematic samples: their spread tells the error.
 constexpr int Sets = 8;
 /// Error bars in standard deviations: at least 95 % of values within them, with room to spare.
@@ -61,6 +67,7 @@ std::int64_t LightSum::Compute(ReceiverBlock& block, const ReceiverBounds& bound
   }
   std::size_t asked = 0;
   std::size_t next = 1; // when to see next whether the rest can be dropped
+  std::size_t look = std::max<std::size_t>(1, effort.FirstLook);
   bool settled = false;
   while (!this->Heap.empty() && !settled)
   {
@@ -76,9 +83,15 @@ std::int64_t LightSum::Compute(ReceiverBlock& block, const ReceiverBounds& bound
           break;
         }
       }
-      if (asked >= effort.Lights && std::isfinite(top.Bound))
+      if (asked >= std::min(look, effort.Lights) && std::isfinite(top.Bound))
       {
-        break;
+        const bool last = asked >= effort.Lights;
+        settled = this->Sample(block, bounds, effort, asked, last, key);
+        look = 4 * asked;
+        if (settled)
+        {
+          break;
+        }
       }
     }
     std::pop_heap(this->Heap.begin(), this->Heap.end());
@@ -93,10 +106,6 @@ std::int64_t LightSum::Compute(ReceiverBlock& block, const ReceiverBounds& bound
     {
       this->Push(this->Tree.Children(top.Id)[k], bounds);
     }
-  }
-  if (!this->Heap.empty() && !settled && !this->Settle(effort))
-  {
-    this->Estimate(block, bounds, asked, key);
   }
   this->Finish();
   return this->Rays;
@@ -211,10 +220,47 @@ double LightSum::Draw(const ReceiverBounds& bounds, double at, Entry& entry) con
   return probability;
 }
 
-void LightSum::Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std::size_t samples,
-  std::uint64_t key)
+/// Estimates what is left; true when that did for all receivers, or had to (`last`).
+bool LightSum::Sample(ReceiverBlock& block, const ReceiverBounds& bounds,
+  const LightEffort& effort, std::size_t asked, bool last, std::uint64_t key)
 {
-  this->Sampled = true;
+  std::size_t left = 0;
+  for (const Entry& entry : this->Heap)
+  {
+    left += static_cast<std::size_t>(this->Tree.Count(entry.Id));
+  }
+  if (this->Settle(effort))
+  {
+    return true;
+  }
+  std::size_t samples = std::max(LeastSamples, asked);
+  if (!last && 4 * samples > left)
+  {
+    return false; // not worth it: as well ask them all
+  }
+  for (;;)
+  {
+    const std::size_t each = std::max<std::size_t>(1, samples / Sets);
+    this->DrawSamples(bounds, each, Hash64(key, asked * 65537 + each));
+    this->AskSamples(block);
+    this->Sampled = true;
+    const double excess = this->TakeEstimates(effort, Sets * each, last);
+    if (!(excess > 1.0))
+    {
+      return true;
+    }
+    // The error of systematic samples falls at least with the root of their number.
+    const double wanted = 1.2 * static_cast<double>(samples) * excess * excess;
+    if (!(wanted < static_cast<double>(std::min(MostSamples, left / 2))))
+    {
+      return false;
+    }
+    samples = std::max(2 * samples, static_cast<std::size_t>(wanted));
+  }
+}
+
+void LightSum::DrawSamples(const ReceiverBounds& bounds, std::size_t each, std::uint64_t key)
+{
   // In the order of the tree, which is one of space: systematic samples then spread evenly.
   std::vector<Entry> rest = this->Heap;
   std::sort(
@@ -224,7 +270,6 @@ void LightSum::Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std:
   {
     total += e.Bound;
   }
-  const std::size_t each = std::max<std::size_t>(1, samples / Sets);
   this->Samples.clear();
   for (int set = 0; set < Sets; ++set)
   {
@@ -240,9 +285,8 @@ void LightSum::Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std:
         below += rest[at++].Bound;
       }
       Entry entry = rest[at];
-      const double probability = rest[at].Bound / total *
-        this->Draw(
-          bounds, std::clamp((place - below) / rest[at].Bound, 0.0, 1.0 - 1e-12), entry);
+      const double within = std::clamp((place - below) / rest[at].Bound, 0.0, 1.0 - 1e-12);
+      const double probability = rest[at].Bound / total * this->Draw(bounds, within, entry);
       if (probability > 0.0)
       {
         this->Samples.push_back({ this->Tree.LightOf(entry.Id), set,
@@ -251,12 +295,17 @@ void LightSum::Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std:
     }
   }
   std::stable_sort(this->Samples.begin(), this->Samples.end(),
-    [](const Sample& a, const Sample& b) { return a.Light < b.Light; });
+    [](const Drawn& a, const Drawn& b) { return a.Light < b.Light; });
+}
 
+void LightSum::AskSamples(ReceiverBlock& block)
+{
   this->Sums.assign(this->Count * this->Bands * Sets, 0.0);
+  this->SampleVariance.assign(this->Count * this->Bands, 0.0);
+  this->SampleError.assign(this->Count * this->Bands, 0.0);
   for (std::size_t s = 0; s < this->Samples.size(); ++s)
   {
-    const Sample& sample = this->Samples[s];
+    const Drawn& sample = this->Samples[s];
     const auto entry = static_cast<std::int32_t>(this->Tree.Nodes() + sample.Light);
     if (s == 0 || sample.Light != this->Samples[s - 1].Light)
     {
@@ -283,37 +332,66 @@ void LightSum::Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std:
         const std::size_t at = i * this->Bands + b;
         const double passing = tints ? weight * tints[at] : weight;
         this->Sums[at * Sets + static_cast<std::size_t>(sample.Set)] += Sets * passing * share.Lit;
-        this->Error[at] += passing * share.Systematic;
-        this->Variance[at] += weight * share.Doubt * (weight * share.Doubt);
+        this->SampleError[at] += passing * share.Systematic;
+        this->SampleVariance[at] += weight * share.Doubt * (weight * share.Doubt);
       }
     }
   }
+}
+
+/// Takes the estimate for the receivers for which it is good enough, with `last` for all. Returns
+/// the greatest ratio of the others' errors to what would do.
+double LightSum::TakeEstimates(const LightEffort& effort, std::size_t drawn, bool last)
+{
   // What samples that all agree may have missed: half a light of the bound's average strength.
-  const double drawn = static_cast<double>(Sets * each);
-  const double missed = Deviations * std::sqrt(0.5) / drawn;
+  const double missed = Deviations * std::sqrt(0.5) / static_cast<double>(drawn);
+  double worst = 0.0;
+  std::vector<double>& mean = this->Mean;
+  std::vector<double>& error = this->Spread;
+  mean.resize(this->Bands);
+  error.resize(this->Bands);
   for (std::size_t i = 0; i < this->Count; ++i)
   {
-    for (std::size_t b = 0; b < this->Bands && this->Active[i] != 0; ++b)
+    if (this->Active[i] == 0)
     {
-      const std::size_t at = i * this->Bands + b;
-      const double* sums = &this->Sums[at * Sets];
-      double mean = 0.0;
-      for (int set = 0; set < Sets; ++set)
-      {
-        mean += sums[set] / Sets;
-      }
+      continue;
+    }
+    double excess = 0.0;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      const double* sums = &this->Sums[(i * this->Bands + b) * Sets];
+      mean[b] = std::accumulate(sums, sums + Sets, 0.0) / Sets;
       double spread = 0.0;
       for (int set = 0; set < Sets; ++set)
       {
-        spread += (sums[set] - mean) * (sums[set] - mean);
+        spread += (sums[set] - mean[b]) * (sums[set] - mean[b]);
       }
-      this->Value[at] += mean;
+      error[b] = std::max(Deviations * std::sqrt(spread / (Sets * (Sets - 1.0))),
+        missed * this->Rest[b]);
+      const double allowed = SampledShare *
+        std::max(effort.RelativeTolerance * (this->Value[i * this->Bands + b] + mean[b]),
+          effort.AbsoluteTolerance);
+      if (error[b] > 0.0)
+      {
+        excess = std::max(excess, allowed > 0.0 ? error[b] / allowed : 1e6);
+      }
+    }
+    if (excess > 1.0 && !last)
+    {
+      worst = std::max(worst, excess);
+      continue;
+    }
+    this->Active[i] = 0;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      const std::size_t at = i * this->Bands + b;
+      this->Value[at] += mean[b];
       this->Open[at] += this->Rest[b];
-      const double seen = Deviations * std::sqrt(spread / (Sets * (Sets - 1.0)));
-      const double sampling = std::max(seen, missed * this->Rest[b]);
-      this->Variance[at] += sampling * sampling;
+      this->Error[at] += this->SampleError[at];
+      this->Variance[at] += this->SampleVariance[at] + error[b] * error[b];
     }
   }
+  return worst;
 }
 
 void LightSum::Finish()

@@ -37,8 +37,10 @@ public:
 /// How far a block is worked out.
 struct LightEffort
 {
-  /// Lights asked one by one; what is left then is estimated from as many more.
+  /// Lights asked one by one; what is left then is estimated from about as many more.
   std::size_t Lights = std::numeric_limits<std::size_t>::max();
+  /// After so many the rest is estimated for the first time, to see whether that will do.
+  std::size_t FirstLook = 32;
   double RelativeTolerance = 0.01;
   double AbsoluteTolerance = 0.0;
 };
@@ -47,10 +49,12 @@ struct LightEffort
 ///   Model   E = sum over lights asked + what the rest may add
 ///   Left    when the sum of the bounds of the rest is within a quarter of the tolerance of a
 ///   out     receiver, in every band, the rest is dropped for it and that bound joins its error
-///   Sampled when the effort allows no more lights, the rest is estimated from eight independent
-///           systematic samples of the tree, each light with a probability in proportion to its
-///           bound: unbiased; the error is 2.5 standard deviations of the mean of the eight, and no
-///           less than what that many samples may have missed
+///   Sampled where many are left, the rest is estimated from eight independent systematic samples of
+///           the tree, each light with a probability in proportion to its bound: unbiased; the
+///           error is 2.5 standard deviations of the mean of the eight, and no less than what that
+///           many samples may have missed. Receivers for which that is good enough are done; for
+///           the others more are drawn, or asked one by one, whichever seems to cost less; when the
+///           effort allows no more lights, the estimate is taken as it is.
 ///   Cost    O(lights asked + log(lights)) for a block
 class LightSum
 {
@@ -83,7 +87,7 @@ private:
       return this->Bound < other.Bound || (this->Bound == other.Bound && this->Id > other.Id);
     }
   };
-  struct Sample
+  struct Drawn
   {
     std::size_t Light;
     int Set;
@@ -92,8 +96,11 @@ private:
   void Push(std::int32_t entry, const ReceiverBounds& bounds);
   void AskOne(ReceiverBlock& block, std::size_t light);
   bool Settle(const LightEffort& effort);
-  void Estimate(ReceiverBlock& block, const ReceiverBounds& bounds, std::size_t samples,
-    std::uint64_t key);
+  bool Sample(ReceiverBlock& block, const ReceiverBounds& bounds, const LightEffort& effort,
+    std::size_t asked, bool last, std::uint64_t key);
+  void DrawSamples(const ReceiverBounds& bounds, std::size_t each, std::uint64_t key);
+  void AskSamples(ReceiverBlock& block);
+  double TakeEstimates(const LightEffort& effort, std::size_t drawn, bool last);
   double Draw(const ReceiverBounds& bounds, double at, Entry& entry) const;
   void Finish();
 
@@ -108,8 +115,13 @@ private:
   std::vector<double> Open;     // receivers x bands
   std::vector<double> Strong;   // the strongest bands of what each receiver gets, together
   std::vector<double> Rest;     // bands: bounds of the entries in the heap
-  std::vector<double> Sums;     // receivers x bands x sets
-  std::vector<Sample> Samples;
+  // Of one estimate: receivers x bands x sets, and receivers x bands.
+  std::vector<double> Sums;
+  std::vector<double> SampleVariance;
+  std::vector<double> SampleError;
+  std::vector<double> Mean;   // bands
+  std::vector<double> Spread; // bands
+  std::vector<Drawn> Samples;
   std::int64_t Rays = 0;
 };
 

@@ -110,6 +110,7 @@ LightTree::LightTree(const std::vector<std::unique_ptr<SourceFlux>>& sources, in
   this->Reaches.resize(nodes + sources.size());
   this->Sums.resize(this->Reaches.size() * this->Bands);
   this->Strengths.resize(this->Reaches.size());
+  this->Counts.resize(this->Reaches.size(), 1);
   for (std::size_t k = 0; k < sources.size(); ++k)
   {
     const std::size_t at = nodes + k;
@@ -171,6 +172,7 @@ std::int32_t LightTree::Build(
       this->Sums[first * this->Bands + b] + this->Sums[second * this->Bands + b];
   }
   this->Strengths[at] = this->Strengths[first] + this->Strengths[second];
+  this->Counts[at] = this->Counts[first] + this->Counts[second];
   return at;
 }
 

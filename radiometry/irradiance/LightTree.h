@@ -56,6 +56,8 @@ public:
     return this->Sums[static_cast<std::size_t>(entry) * this->Bands + band];
   }
   double Strength(std::int32_t entry) const { return this->Strengths[entry]; }
+  /// How many lights there are below an entry.
+  std::int32_t Count(std::int32_t entry) const { return this->Counts[entry]; }
 
 private:
   /// Bounds on the lights below an entry.
@@ -82,6 +84,7 @@ private:
   std::vector<Reach> Reaches; // of all entries
   std::vector<double> Sums;   // entries x bands
   std::vector<double> Strengths;
+  std::vector<std::int32_t> Counts;
   std::vector<std::int32_t> Starts;
 };
 
