@@ -144,10 +144,32 @@ private:
   /// Returns true when some patch of the cluster is not yet good enough.
   bool Compute(std::size_t cluster, const Round& round, bool first)
   {
+    return this->Compute(
+      cluster, this->Clusters.Begin(cluster), this->Clusters.End(cluster), round, first);
+  }
+
+  /// True when the patches are so far apart that those among them that are close to a light differ
+  /// much in which of many lights matter to them.
+  bool TooWide(const Box3& box) const
+  {
+    constexpr std::size_t many = 32;
+    return this->Lights.Size() > many &&
+      Length(box.Size()) > this->Lights.Tree.Nearest(box.Center());
+  }
+
+  bool Compute(std::size_t cluster, const std::uint32_t* ids, const std::uint32_t* end,
+    const Round& round, bool first)
+  {
     Worker& worker = *this->Blocks.local();
     PatchBlock& block = worker.Block;
-    const std::uint32_t* ids = this->Clusters.Begin(cluster);
-    block.Load(ids, this->Clusters.End(cluster));
+    block.Load(ids, end);
+    constexpr std::ptrdiff_t few = 4;
+    if (end - ids > few && this->TooWide(block.Bounds().Box))
+    {
+      const std::uint32_t* middle = ids + (end - ids) / 2;
+      const bool before = this->Compute(cluster, ids, middle, round, first);
+      return this->Compute(cluster, middle, end, round, first) || before;
+    }
     block.Work = round.Work;
     worker.Active.assign(block.Size(), 0);
     for (std::size_t i = 0; i < block.Size(); ++i)

@@ -18,11 +18,13 @@ constexpr double DroppedShare = 0.25;
 constexpr double SampledShare = 0.7;
 /// So many samples are drawn at most, and at least before their spread means much.
 constexpr std::size_t MostSamples = 4096;
-constexpr std::size_t LeastSamples = 32;
+constexpr std::size_t LeastSamples = 64;
 /// Independent systematic samples: their spread tells the error.
 constexpr int Sets = 8;
-/// Error bars in standard deviations: at least 95 % of values within them, with room to spare.
-constexpr double Deviations = 2.5;
+/// Error bars in standard deviations. That is more than 95 % of a normal distribution would want:
+/// the deviation is known from eight sets only, what rare strong lights give is skewed, and an
+/// estimate is taken where its spread happens to be small.
+constexpr double Deviations = 3.3;
 
 } // namespace
 

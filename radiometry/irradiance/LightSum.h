@@ -51,7 +51,7 @@ struct LightEffort
 ///   out     receiver, in every band, the rest is dropped for it and that bound joins its error
 ///   Sampled where many are left, the rest is estimated from eight independent systematic samples of
 ///           the tree, each light with a probability in proportion to its bound: unbiased; the
-///           error is 2.5 standard deviations of the mean of the eight, and no less than what that
+///           error is 3.3 standard deviations of the mean of the eight, and no less than what that
 ///           many samples may have missed. Receivers for which that is good enough are done; for
 ///           the others more are drawn, or asked one by one, whichever seems to cost less; when the
 ///           effort allows no more lights, the estimate is taken as it is.

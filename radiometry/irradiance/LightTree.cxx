@@ -176,6 +176,44 @@ std::int32_t LightTree::Build(
   return at;
 }
 
+double LightTree::Nearest(const Vec3& point) const
+{
+  const auto distance = [&](std::int32_t entry) {
+    const Box3& box = this->Reaches[entry].Box;
+    Vec3 off;
+    for (int a = 0; a < 3; ++a)
+    {
+      off[a] = std::max({ box.Min[a] - point[a], point[a] - box.Max[a], 0.0 });
+    }
+    return Length(off);
+  };
+  double nearest = std::numeric_limits<double>::infinity();
+  std::int32_t stack[64];
+  int top = 0;
+  if (!this->Starts.empty() && !this->Reaches[this->Starts[0]].Directional)
+  {
+    stack[top++] = this->Starts[0];
+  }
+  while (top > 0)
+  {
+    const std::int32_t entry = stack[--top];
+    if (!(distance(entry) < nearest))
+    {
+      continue;
+    }
+    if (this->IsLight(entry))
+    {
+      nearest = distance(entry);
+      continue;
+    }
+    const std::int32_t* child = this->Children(entry);
+    const bool first = distance(child[0]) < distance(child[1]);
+    stack[top++] = child[first ? 1 : 0]; // the nearer one is looked at next
+    stack[top++] = child[first ? 0 : 1];
+  }
+  return nearest;
+}
+
 double LightTree::Gain(std::int32_t entry, const ReceiverBounds& receivers) const
 {
   const Reach& reach = this->Reaches[entry];

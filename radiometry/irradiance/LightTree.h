@@ -59,6 +59,9 @@ public:
   /// How many lights there are below an entry.
   std::int32_t Count(std::int32_t entry) const { return this->Counts[entry]; }
 
+  /// Distance from a point to the nearest light that has a place; infinite: none has.
+  double Nearest(const Vec3& point) const;
+
 private:
   /// Bounds on the lights below an entry.
   struct Reach
