@@ -33,7 +33,10 @@ struct Columns
   std::vector<vtkSmartPointer<vtkDoubleArray>> Numbers;
   vtkNew<vtkIdTypeArray> Cells;
 
-  explicit Columns(const std::vector<double>& thresholds)
+  std::vector<double> Percentiles;
+
+  Columns(const std::vector<double>& thresholds, const std::vector<double>& percentiles)
+    : Percentiles(percentiles)
   {
     this->Block->SetName("Block");
     this->Group->SetName("Group");
@@ -50,6 +53,12 @@ struct Columns
     {
       std::ostringstream name;
       name << "ShareAbove " << thresholds[k];
+      this->AddNumber(name.str());
+    }
+    for (const double percentile : percentiles)
+    {
+      std::ostringstream name;
+      name << "P" << percentile;
       this->AddNumber(name.str());
     }
   }
@@ -73,6 +82,10 @@ struct Columns
     for (const radiometry::AreaStatisticsCollector& collector : entry.Values)
     {
       values.push_back(collector.Result().ShareAbove());
+    }
+    for (const double percentile : this->Percentiles)
+    {
+      values.push_back(entry.Quantiles.At(percentile / 100.0));
     }
     for (std::size_t i = 0; i < this->Numbers.size(); ++i)
     {
@@ -107,6 +120,10 @@ void StatisticsEntry::Add(
     {
       collector.AddConstant(piece.Area, value);
     }
+    if (this->KeepPieces)
+    {
+      this->Quantiles.AddConstant(piece.Area, value);
+    }
   }
   else
   {
@@ -118,6 +135,10 @@ void StatisticsEntry::Add(
     for (radiometry::AreaStatisticsCollector& collector : this->Values)
     {
       collector.AddLinear(piece.Area, v[0], v[1], v[2]);
+    }
+    if (this->KeepPieces)
+    {
+      this->Quantiles.AddLinear(piece.Area, v[0], v[1], v[2]);
     }
   }
   if (this->LastCell != piece.Cell)
@@ -152,7 +173,7 @@ void StatisticsTable::AddArray(const StatisticsBlock& block,
   {
     const auto entryOf = [&](Entries& entries, long long group) -> StatisticsEntry& {
       return entries
-        .emplace(StatisticsKey{ group, array, c }, StatisticsEntry(this->Thresholds))
+        .emplace(StatisticsKey{ group, array, c }, StatisticsEntry(this->Thresholds, !this->Percentiles.empty()))
         .first->second;
     };
     StatisticsEntry& all = entryOf(part, everyGroup);
@@ -189,7 +210,7 @@ void StatisticsTable::AddArray(const StatisticsBlock& block,
 
 void StatisticsTable::Write(const std::vector<std::string>& arrays, vtkTable* table) const
 {
-  Columns columns(this->Thresholds);
+  Columns columns(this->Thresholds, this->Percentiles);
   const auto add = [&](const std::string& block, const Entries& entries) {
     for (const std::string& array : arrays)
     {

@@ -15,11 +15,14 @@ class vtkTable;
 /// Statistics of one array's component over a surface or one of its groups of cells.
 struct StatisticsEntry
 {
-  explicit StatisticsEntry(const std::vector<double>& thresholds)
+  explicit StatisticsEntry(const std::vector<double>& thresholds, bool keepPieces = false)
     : Values(thresholds.begin(), thresholds.end())
+    , KeepPieces(keepPieces)
   {
   }
   std::vector<radiometry::AreaStatisticsCollector> Values; // one a threshold
+  bool KeepPieces;
+  radiometry::AreaQuantiles Quantiles; // where pieces are kept
   std::string Name;
   vtkIdType Cells = 0;
   vtkIdType LastCell = -1;
@@ -43,9 +46,12 @@ struct StatisticsKey
 class StatisticsTable
 {
 public:
-  /// `thresholds`: at least one. `groupArray`: may be empty. `withWhole`: a first block "(all)".
-  StatisticsTable(std::vector<double> thresholds, std::string groupArray, bool withWhole)
+  /// `thresholds`: at least one. `percentiles`: in (0, 100), any number. `groupArray`: may be empty.
+  /// `withWhole`: a first block "(all)".
+  StatisticsTable(std::vector<double> thresholds, std::vector<double> percentiles,
+    std::string groupArray, bool withWhole)
     : Thresholds(std::move(thresholds))
+    , Percentiles(std::move(percentiles))
     , GroupArray(std::move(groupArray))
     , WithWhole(withWhole)
   {
@@ -63,6 +69,7 @@ private:
     const std::string& array, Entries& entries);
 
   std::vector<double> Thresholds;
+  std::vector<double> Percentiles;
   std::string GroupArray;
   bool WithWhole;
   Entries Whole;

@@ -121,6 +121,18 @@ void vtkRadiometricStatistics::ClearThresholds()
   this->Modified();
 }
 
+void vtkRadiometricStatistics::AddPercentile(double percentile)
+{
+  this->Percentiles.push_back(percentile);
+  this->Modified();
+}
+
+void vtkRadiometricStatistics::ClearPercentiles()
+{
+  this->Percentiles.clear();
+  this->Modified();
+}
+
 void vtkRadiometricStatistics::AddIsovalue(double value)
 {
   this->Isovalues.push_back(value);
@@ -178,6 +190,14 @@ void vtkRadiometricStatistics::Describe(vtkDataObject* input, vtkInformationVect
   CheckFinite("Threshold", thresholds);
   CheckFinite("Isovalues", this->Isovalues);
 
+  for (const double percentile : this->Percentiles)
+  {
+    if (!(percentile > 0.0 && percentile < 100.0))
+    {
+      throw InputError("Percentiles", -1, percentile, "a number in (0, 100)");
+    }
+  }
+
   const std::vector<StatisticsBlock> blocks = StatisticsBlocks(input);
   const std::vector<std::string> arrays =
     this->ArrayNames.empty() ? ResultNames(blocks) : this->ArrayNames;
@@ -201,7 +221,7 @@ void vtkRadiometricStatistics::Describe(vtkDataObject* input, vtkInformationVect
     throw InputError(group, -1, "missing", "an integer cell array of the surface");
   }
 
-  StatisticsTable table(thresholds, group, vtkCompositeDataSet::SafeDownCast(input) != nullptr);
+  StatisticsTable table(thresholds, this->Percentiles, group, vtkCompositeDataSet::SafeDownCast(input) != nullptr);
   std::vector<std::vector<SurfacePiece>> pieces;
   for (const StatisticsBlock& block : blocks)
   {
@@ -255,6 +275,10 @@ void vtkRadiometricStatistics::PrintSelf(ostream& os, vtkIndent indent)
   for (const double threshold : this->MoreThresholds)
   {
     os << indent << "Further threshold: " << threshold << "\n";
+  }
+  for (const double percentile : this->Percentiles)
+  {
+    os << indent << "Percentile: " << percentile << "\n";
   }
   os << indent << "GenerateIsolines: " << this->GenerateIsolines << "\n";
   os << indent << "IsolineArray: " << (this->IsolineArray ? this->IsolineArray : "(none)") << "\n";

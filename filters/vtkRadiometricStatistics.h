@@ -17,7 +17,7 @@
 ///           (value of GroupArray; -1: all cells of the block), GroupName, Array, Component (-1: the
 ///           sum of three bands weighted by luminance), Area [m^2], Minimum, Mean, Maximum, U0, Ud,
 ///           Flux [array's unit times m^2], ShareAbove (and "ShareAbove x" for each further
-///           threshold x), Cells. Of composite data a first block "(all)" is the whole. Field data:
+///           threshold x, and P<p> for each percentile p), Cells. Of composite data a first block "(all)" is the whole. Field data:
 ///           Threshold
 ///           output 1: polydata, lines of equal value of one array: cell data Isovalue, Label (value
 ///           and unit), Length [m]; point data named like the array
@@ -73,6 +73,14 @@ public:
   ///@}
 
   ///@{
+  /// Percentiles [%], each with a column P<percentile>: the value that this share of the area does
+  /// not exceed. Default none. In (0, 100).
+  void AddPercentile(double percentile);
+  void ClearPercentiles();
+  int GetNumberOfPercentiles() const { return static_cast<int>(this->Percentiles.size()); }
+  ///@}
+
+  ///@{
   /// Whether outputs 1 and 2 are filled. Default on.
   vtkSetMacro(GenerateIsolines, bool);
   vtkGetMacro(GenerateIsolines, bool);
@@ -113,6 +121,7 @@ protected:
   char* GroupArray = nullptr;
   double Threshold = 0.0;
   std::vector<double> MoreThresholds;
+  std::vector<double> Percentiles;
   bool GenerateIsolines = true;
   char* IsolineArray = nullptr;
   std::vector<double> Isovalues;

@@ -58,6 +58,70 @@ AreaStatistics AreaStatisticsCollector::Result() const
   return result;
 }
 
+void AreaQuantiles::AddLinear(double area, double a, double b, double c)
+{
+  this->Pieces.push_back({ area, { a, b, c } });
+  this->Linear = this->Linear || a != b || b != c;
+}
+
+double AreaQuantiles::At(double share) const
+{
+  if (this->Pieces.empty())
+  {
+    return 0.0;
+  }
+  return this->Linear ? this->OfAll(share) : this->OfConstants(share);
+}
+
+double AreaQuantiles::OfConstants(double share) const
+{
+  std::vector<std::array<double, 2>> sorted; // value, area
+  double total = 0.0;
+  for (const Piece& piece : this->Pieces)
+  {
+    sorted.push_back({ piece.Values[0], piece.Area });
+    total += piece.Area;
+  }
+  std::sort(sorted.begin(), sorted.end());
+  // What is whole but for the rounding of the sums counts as whole.
+  const double wanted = share * total * (1.0 - 1e-12);
+  double area = 0.0;
+  for (const auto& [value, weight] : sorted)
+  {
+    area += weight;
+    if (area >= wanted)
+    {
+      return value;
+    }
+  }
+  return sorted.back()[0];
+}
+
+double AreaQuantiles::OfAll(double share) const
+{
+  double low = this->Pieces.front().Values[0];
+  double high = low;
+  double total = 0.0;
+  for (const Piece& piece : this->Pieces)
+  {
+    low = std::min({ low, piece.Values[0], piece.Values[1], piece.Values[2] });
+    high = std::max({ high, piece.Values[0], piece.Values[1], piece.Values[2] });
+    total += piece.Area;
+  }
+  for (int k = 0; k < 50; ++k)
+  {
+    const double middle = 0.5 * low + 0.5 * high;
+    double above = 0.0;
+    for (const Piece& piece : this->Pieces)
+    {
+      const auto& [a, b, c] = piece.Values;
+      above += piece.Area * LinearShareAbove(a, b, c, middle);
+    }
+    (total - above >= share * total ? high : low) = middle;
+  }
+  return high;
+}
+
 double LinearShareAbove(double a, double b, double c, double threshold)
 {
   double v[3] = { a, b, c };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 namespace radiometry
 {
@@ -58,6 +60,35 @@ private:
   Sum Area;
   Sum Flux;
   Sum Above;
+};
+
+/// Keeps the pieces of a surface and gives the value that a share of its area does not exceed.
+///   Model   the smallest v for which the area with values up to v is at least that share of the
+///           whole; a value at corners is linear in between
+///   Exact   constant pieces: one of their values; linear ones: to 1e-12 of the range
+///   Cost    32 bytes a piece; O(n log n) where all are constant, else 50 passes a quantile
+class AreaQuantiles
+{
+public:
+  void AddConstant(double area, double value)
+  {
+    this->Pieces.push_back({ area, { value, value, value } });
+  }
+  void AddLinear(double area, double a, double b, double c);
+  /// `share` in [0, 1]; 0 where there is no piece.
+  double At(double share) const;
+
+private:
+  struct Piece
+  {
+    double Area;
+    std::array<double, 3> Values;
+  };
+  double OfConstants(double share) const;
+  double OfAll(double share) const;
+
+  std::vector<Piece> Pieces;
+  bool Linear = false;
 };
 
 /// Share of a triangle in which a linear function with these corner values is at least `threshold`.

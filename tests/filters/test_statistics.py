@@ -307,6 +307,30 @@ def test_further_thresholds():
     assert statistics.GetOutput().GetColumnByName("ShareAbove 5") is None
 
 
+def test_percentiles():
+    """Of x + y on a square of side 10 the median is 10 and P12.5 is 5; of cells, each value by its
+    area."""
+    def row(data, *percentiles):
+        statistics = vtkRadiometricStatistics()
+        statistics.SetInputDataObject(data)
+        statistics.SetArrayName("E")
+        for percentile in percentiles:
+            statistics.AddPercentile(percentile)
+        statistics.Update()
+        out = statistics.GetOutput()
+        return [out.GetValueByName(0, f"P{p:g}").ToDouble() for p in percentiles]
+
+    close(row(plane(7, lambda x, y: x + y), 50, 12.5, 87.5), [10, 5, 15], relative=1e-11)
+    cells = surface(POINTS, CELLS, {"E": [10.0, 1.0, 99.0]})  # areas 1, 2 and 0
+    close(row(cells, 66, 67, 1, 99), [1, 10, 1, 10])
+    close(row(sensors([[k, 0, 0] for k in range(10)], range(1, 11)), 50, 51, 90), [5, 6, 9])
+    statistics = vtkRadiometricStatistics()
+    statistics.SetInputDataObject(cells)
+    statistics.SetArrayName("E")
+    statistics.AddPercentile(100.0)
+    fails(statistics, "Percentiles", "100")
+
+
 def test_blocks_with_a_grid_of_sensors():
     """A work plane beside a surface: each with its own area, both in the whole."""
     source = vtkWorkPlaneSource()
