@@ -210,9 +210,7 @@ def add(renderer, lights, bounds, camera, aspect):
                 _actor(renderer, _shape(kind),
                        _placed(direction, scale, middle - 0.5 * scale * direction))
             else:
-                dome = _actor(renderer, _dome(), _placed(-direction, 0.8 * scale, middle))
-                dome.GetProperty().SetRepresentationToWireframe()
-                dome.GetProperty().SetLineWidth(2.0)
+                _actor(renderer, _dome(), _placed(-direction, 0.8 * scale, middle))
             continue
         place = light.points.mean(axis=0)
         scale = 0.05 * min(size, camera.distance_to(place))

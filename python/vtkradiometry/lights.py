@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The lights of a run: those of the scene and those of the command line, each a polydata."""
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList
 
 from .compute import field_facts
@@ -102,6 +102,26 @@ class Lights:
         """Hands them to a simulating filter."""
         for part in self.parts:
             algorithm.AddInputDataObject(1, part)
+
+    @property
+    def soft(self):
+        """Whether any light casts soft shadows: an area or the sky."""
+        return any(light.enabled and light.kind in (AREA, ENVIRONMENT) for light in self)
+
+    def sharp(self):
+        """These lights with those of soft shadows switched off."""
+        parts = []
+        for part in self.parts:
+            kinds = vtk_to_numpy(part.GetPointData().GetArray("LightType"))
+            enabled = part.GetPointData().GetArray("LightEnabled")
+            on = np.ones(len(kinds)) if enabled is None else vtk_to_numpy(enabled)
+            flags = numpy_to_vtk(((on != 0) & (kinds < AREA)).astype(np.int32), deep=True)
+            flags.SetName("LightEnabled")
+            copy = part.NewInstance()
+            copy.ShallowCopy(part)
+            copy.GetPointData().AddArray(flags)
+            parts.append(copy)
+        return Lights(*parts)
 
     def fact(self, name, fallback):
         """Field data of the lights: the first part that says something."""

@@ -55,6 +55,24 @@ def _vector(text):
     return values
 
 
+def _sun(text):
+    try:
+        altitude, azimuth = (float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not ALTITUDE,AZIMUTH") from None
+    if not (0.0 < altitude <= 90.0 and -360.0 <= azimuth <= 360.0):
+        raise argparse.ArgumentTypeError(
+            f"{text}: the altitude must lie in (0, 90] degrees, the azimuth in [-360, 360]")
+    return altitude, azimuth
+
+
+def _share(text):
+    value = float(text)
+    if not 0.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"{text} does not lie in [0, 1]")
+    return value
+
+
 def _height(text):
     try:
         value = float(text)
@@ -122,7 +140,7 @@ def make_parser(program="./run"):
     physics = parser.add_argument_group("what is computed")
     physics.add_argument("--radiosity", action=argparse.BooleanOptionalAction, default=True,
                          help="light reflected between surfaces too, not only light that comes "
-                         "straight from the lamps")
+                         "straight from lamps, emitting surfaces and sky")
     physics.add_argument("--method", default="auto",
                          choices=["auto", "dense", "hierarchical", "montecarlo"],
                          help="how interreflection is solved (default: auto)")
@@ -159,6 +177,22 @@ def make_parser(program="./run"):
                        metavar="X,Y,Z", help="where it hangs; again for further copies of it")
     added.add_argument("--toward", action=_Luminaire, dest="luminaires", type=_vector,
                        metavar="X,Y,Z", help="a point that the copy before looks at (default: down)")
+
+    added.add_argument("--sky", choices=["uniform", "overcast", "clear", "intermediate"],
+                       help="light from all around by the CIE's standard skies (uniform: from below "
+                       "the horizon too); clear and intermediate ones need --sun")
+    added.add_argument("--sky-map", metavar="FILE",
+                       help="light from a lat-long OpenEXR picture in W/(m2 sr), north in its middle")
+    added.add_argument("--sky-illuminance", type=_positive, default=10000.0, metavar="LUX",
+                       help="what the sky alone gives on open level ground (default: 10000)")
+    added.add_argument("--ground-reflectance", type=_share, default=0.2, metavar="X",
+                       help="of the ground below a CIE sky's horizon (default: 0.2)")
+    added.add_argument("--sun", type=_sun, metavar="ALTITUDE,AZIMUTH",
+                       help="where the sun is, degrees above the horizon and from north over east; "
+                       "it shines, except under a uniform or overcast sky")
+    added.add_argument("--sun-illuminance", type=_not_negative, default=None, metavar="LUX",
+                       help="of the sun on a surface that faces it (default: 80000, 20000 under an "
+                       "intermediate sky, 0 under a uniform or overcast one)")
 
     plane = parser.add_argument_group("measuring grid")
     plane.add_argument("--work-plane", type=_height, nargs="?", const=0.8, metavar="HEIGHT",

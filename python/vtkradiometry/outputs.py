@@ -7,7 +7,7 @@ import numpy as np
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from . import falsecolor, mesh, picture, plots, quantities, report, view_mesh, workplane
+from . import falsecolor, mesh, picture, plots, quantities, report, sky, view_mesh, workplane
 from .faults import Listener
 from .image_file import write_exr
 from .scales import Scale, format_number
@@ -95,11 +95,7 @@ class View:
         size = options.size[0], round(options.size[1] / (1.0 - falsecolor.LEGEND_SHARE))
         seen = picture.seen_cells(view_mesh.coarse_polydata(surface, drawn), scene.camera, size)
         self.mesh = view_mesh.ViewMesh(surface, self.smooth, scene.camera, size, drawn, back, seen)
-        direct = _seen(surface, "DirectIrradiance", back)
-        rest = None  # what other surfaces send
-        if direct is not None:
-            rest = self.smooth.to_points(
-                np.maximum(_seen(surface, "Irradiance", back) - direct, 0.0))
+        rest = self._rest(scene, surface, back, options, progress)
         self.irradiance = self._total(rest, scene, surface, options, progress)
         if scene.lights:  # shadows have edges
             self.mesh.sharpen(self.irradiance)
@@ -113,16 +109,24 @@ class View:
             radiosity = radiosity + self.mesh.from_computed(self.smooth.to_points(emitted))
         self.radiance = radiosity / math.pi
 
-    def _total(self, rest, scene, surface, options, progress):
-        direct = self._direct(scene, surface, options, progress)
-        return direct if rest is None else direct + self.mesh.from_computed(rest)
+    def _rest(self, scene, surface, back, options, progress):
+        """What varies slowly enough for the computed cells: light of other surfaces, of areas and
+        of the sky; None where there is nothing of it."""
+        direct = _seen(surface, "DirectIrradiance", back)
+        if scene.emits or scene.lights.soft:
+            direct = _seen(self._sharp(scene, surface, options, progress), "Irradiance", back)
+        if direct is None:
+            return None
+        return self.smooth.to_points(
+            np.maximum(_seen(surface, "Irradiance", back) - direct, 0.0))
 
-    def _direct(self, scene, surface, options, progress):
-        if not scene.lights:
-            return np.zeros((len(self.mesh.xyz), 1))
+    @staticmethod
+    def _sharp(scene, receiver, options, progress):
+        """The light with sharp shadows alone on a surface."""
         direct = vtkIrradianceFilter()
-        direct.SetInputDataObject(0, self.mesh.receiver(surface))
-        scene.lights.connect(direct)
+        direct.SetInputDataObject(0, receiver)
+        scene.lights.sharp().connect(direct)
+        direct.SetEmission(2)
         direct.SetRelativeTolerance(max(options.tolerance, 0.02))
         direct.SetNumberOfThreads(options.threads)
         with progress.filter(direct), Listener() as listener:
@@ -130,8 +134,17 @@ class View:
             direct.Update()
             listener.check("picture")
         progress.check()
-        return self.mesh.from_cells(
-            quantities.per_cell(direct.GetOutputDataObject(0), "Irradiance"))
+        return direct.GetOutputDataObject(0)
+
+    def _total(self, rest, scene, surface, options, progress):
+        direct = self._direct(scene, surface, options, progress)
+        return direct if rest is None else direct + self.mesh.from_computed(rest)
+
+    def _direct(self, scene, surface, options, progress):
+        if not scene.lights:
+            return np.zeros((len(self.mesh.xyz), 1))
+        return self.mesh.from_cells(quantities.per_cell(
+            self._sharp(scene, self.mesh.receiver(surface), options, progress), "Irradiance"))
 
 
 def _false_colour(output, scene, view, surface, options, summary):
@@ -157,7 +170,8 @@ def _false_colour(output, scene, view, surface, options, summary):
 
 
 def _pictures(output, scene, view, surface, options):
-    drawn = picture.render(view.mesh, view.radiance, scene.camera, options.size)
+    drawn = picture.render(view.mesh, view.radiance, scene.camera, options.size,
+                           lambda toward: sky.radiance(scene.lights, toward))
     layers = {}
     for name in RESULTS:
         values = _seen(surface, name, view.mesh.back)

@@ -97,21 +97,39 @@ def seen_cells(surface, camera, size):
     return found[found >= 0]
 
 
-def render(view, radiance, camera, size):
+def render(view, radiance, camera, size, background=None):
     """Draws the radiance (at the points of the view mesh), and finds the computed cell, depth and
-    normal of each pixel."""
+    normal of each pixel. background: the radiance from (n, 3) directions, where no surface is."""
     width, height = size
     surface = view.polydata({"Radiance": as_rgb(radiance).astype(np.float32)})
     drawing = Drawing(surface, camera)
     try:
-        rgb = drawing.draw("Radiance", 0, width, height, SAMPLES)[:, :, :3]
+        drawn = drawing.draw("Radiance", 0, width, height, SAMPLES)
         number = drawing.draw("TriangleNumber", 1, width, height, 1)[:, :, 0]
     finally:
         drawing.close()
     fine = np.rint(number).astype(np.int64) - 1
+    rgb = _with_background(drawn, camera, background)
     depth, normal = _geometry(view, fine, camera)
     cells = np.where(fine >= 0, view.origin[np.maximum(fine, 0)], -1)
     return Picture(rgb, cells, depth, normal)
+
+
+def _with_background(drawn, camera, background):
+    """The picture with the background where surfaces leave (part of) a pixel free."""
+    rgb, free = drawn[:, :, :3], 1.0 - drawn[:, :, 3]
+    if background is None:
+        return rgb
+    height, width = free.shape
+    _, directions = camera.rays(width, height)
+    open_ = free > 0.0
+    toward = directions[open_] / np.linalg.norm(directions[open_], axis=1, keepdims=True)
+    behind = background(toward)
+    if behind is None:
+        return rgb
+    rgb = rgb.copy()
+    rgb[open_] += free[open_][:, None] * as_rgb(behind)
+    return rgb
 
 
 def _geometry(view, fine, camera):

@@ -76,7 +76,7 @@ class Scene:
             self.surface.SetFieldData(field)
 
 
-def _check(path, surface, lights, radiosity):
+def _check(path, surface, lights):
     """Refuses what cannot be computed with; returns what the user should be warned of."""
     if surface.GetNumberOfCells() == 0:
         raise InputFault(f"{path}: no triangles in the scene")
@@ -89,8 +89,6 @@ def _check(path, surface, lights, radiosity):
     if not (lights.lit or emits):
         return ["Lights: nothing gives light, neither a light (KHR_lights_punctual) nor an emissive "
                 "material: every value is 0."]
-    if emits and not radiosity:
-        return ["Emission: --no-radiosity leaves out what surfaces emit; the effect plan bounds it."]
     return []
 
 
@@ -143,7 +141,7 @@ def read(path, options, progress):
     assumptions = [reader.GetAssumption(k) for k in range(reader.GetNumberOfAssumptions())]
     with progress.stage("Lights"):
         assumptions += added_lights.add(lights, options, Scene.UP, Scene.NORTH)
-    warnings = _check(path, surface, lights, options.radiosity)
+    warnings = _check(path, surface, lights)
     for words in warnings:
         sys.stderr.write(f"run: warning: {path}: {words}\n")
     assumptions += warnings
