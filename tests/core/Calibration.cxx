@@ -70,6 +70,7 @@ std::vector<CalibrationCase> CalibrationCases()
 {
   std::vector<CalibrationCase> cases;
   AddBeamCases(cases);
+  AddAreaCases(cases);
   return cases;
 }
 

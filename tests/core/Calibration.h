@@ -56,6 +56,7 @@ struct Calibration
 
 /// All cases, one kind of light an entry of the lists in Calibration*.cxx.
 std::vector<CalibrationCase> CalibrationCases();
+void AddAreaCases(std::vector<CalibrationCase>& cases);
 void AddBeamCases(std::vector<CalibrationCase>& cases);
 
 // What the cases share.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/core/Calibration.h"
+#include "tests/core/CalibrationBeams.h"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +26,10 @@ double Formula(const Light& light, const Vec3& at)
   const Vec3 way = light.Position - at;
   const double r = Length(way);
   double intensity = light.Intensity[0];
+  if (light.Web)
+  {
+    return intensity * WebIntensity(light, -way) * (way.z / r) / (r * r);
+  }
   if (light.Type == LightType::Spot)
   {
     const double c = -Dot(way, light.Direction) / r;
@@ -92,32 +96,46 @@ RegionIntegrand Integrand(const Light& light)
 {
   RegionIntegrand f;
   f.Value = [light](double x, double y) { return Formula(light, { x, y, 0.0 }); };
-  if (light.Type == LightType::Spot)
+  std::vector<double> cosines;
+  std::vector<Vec3> planes;
+  if (light.Web)
   {
-    std::vector<double> cosines;
-    if (light.CosCutoff > -1.0)
-    {
-      cosines.push_back(light.CosCutoff);
-    }
-    if (light.SmoothEdge)
-    {
-      cosines.push_back(light.CosInnerCutoff);
-    }
-    if (light.Exponent > 0.0)
-    {
-      cosines.push_back(0.0);
-    }
+    AddWebBreaks(light, cosines, planes);
+  }
+  if (light.Type == LightType::Spot && light.CosCutoff > -1.0)
+  {
+    cosines.push_back(light.CosCutoff);
+  }
+  if (light.SmoothEdge)
+  {
+    cosines.push_back(light.CosInnerCutoff);
+  }
+  if (light.Exponent > 0.0)
+  {
+    cosines.push_back(0.0);
+  }
+  if (cosines.empty() && planes.empty())
+  {
+    return f;
+  }
+  for (const double cosine : cosines)
+  {
+    Extremes(light, cosine, f.Extremes);
+  }
+  if (light.Direction.z < 0.0) // where the axis meets the floor all planes meet
+  {
+    f.Extremes.push_back(light.Position.y - light.Position.z / light.Direction.z * light.Direction.y);
+  }
+  f.OnLine = [light, cosines, planes](const Point2& o, const Point2& d, std::vector<double>& s) {
     for (const double cosine : cosines)
     {
-      Extremes(light, cosine, f.Extremes);
+      Roots(ConeAlong(light, cosine, o, d), s);
     }
-    f.OnLine = [light, cosines](const Point2& o, const Point2& d, std::vector<double>& s) {
-      for (const double cosine : cosines)
-      {
-        Roots(ConeAlong(light, cosine, o, d), s);
-      }
-    };
-  }
+    for (const Vec3& n : planes)
+    {
+      s.push_back(-Dot(n, Vec3{ o.x, o.y, 0.0 } - light.Position) / Dot(n, Vec3{ d.x, d.y, 0.0 }));
+    }
+  };
   return f;
 }
 
@@ -135,8 +153,6 @@ Convex2 Shadow(const Light& light, const Triangle3& blocker)
   }
   return shadow;
 }
-
-using LightMaker = std::function<Light(Random&)>;
 
 Light Above(Random& random)
 {
@@ -157,15 +173,9 @@ Light Spot(Random& random, double exponent, double cutoff)
   return light;
 }
 
-struct Kind
+std::vector<BeamKind> Kinds()
 {
-  const char* Name;
-  LightMaker Make;
-};
-
-const std::vector<Kind>& Kinds()
-{
-  static const std::vector<Kind> kinds{
+  std::vector<BeamKind> kinds{
     { "point", Above },
     { "directional",
       [](Random& random) {
@@ -199,6 +209,8 @@ const std::vector<Kind>& Kinds()
         return light;
       } },
   };
+  const std::vector<BeamKind> webs = WebKinds();
+  kinds.insert(kinds.end(), webs.begin(), webs.end());
   return kinds;
 }
 
@@ -211,7 +223,7 @@ struct Blocking
   double ReferenceTolerance;
 };
 
-void Draw(CalibrationScene& scene, Light& light, Random& random, const Kind& kind, const Blocking& b)
+void Draw(CalibrationScene& scene, Light& light, Random& random, const BeamKind& kind, const Blocking& b)
 {
   scene = MakeCalibrationScene(random, b.FloorCells, b.Count, b.Size);
   light = kind.Make(random);
@@ -220,7 +232,7 @@ void Draw(CalibrationScene& scene, Light& light, Random& random, const Kind& kin
   scene.Scene.Lights = { placed };
 }
 
-std::vector<Judged> JudgeCells(const Kind& kind, const Blocking& b, std::uint64_t seed)
+std::vector<Judged> JudgeCells(const BeamKind& kind, const Blocking& b, std::uint64_t seed)
 {
   Random random(seed);
   CalibrationScene scene;
@@ -258,7 +270,7 @@ void JudgeAt(const CalibrationScene& scene, const Light& light, const std::vecto
   }
 }
 
-std::vector<Judged> JudgePoints(const Kind& kind, const Blocking& b, std::uint64_t seed)
+std::vector<Judged> JudgePoints(const BeamKind& kind, const Blocking& b, std::uint64_t seed)
 {
   Random random(seed);
   CalibrationScene scene;
@@ -274,7 +286,7 @@ std::vector<Judged> JudgePoints(const Kind& kind, const Blocking& b, std::uint64
   return values;
 }
 
-std::vector<Judged> JudgeVertices(const Kind& kind, const Blocking& b, std::uint64_t seed)
+std::vector<Judged> JudgeVertices(const BeamKind& kind, const Blocking& b, std::uint64_t seed)
 {
   Random random(seed);
   CalibrationScene scene;
@@ -303,12 +315,12 @@ void AddBeamCases(std::vector<CalibrationCase>& cases)
   static const Blocking few{ "12 triangles", 12, 0.5, 3, 1e-9 };
   static const Blocking many{ "400 triangles", 400, 0.12, 3, 1e-6 };
   static const Blocking dense{ "3000 triangles", 3000, 0.05, 3, 1e-5 };
-  for (const Kind& kind : Kinds())
+  for (const BeamKind& kind : Kinds())
   {
     for (const Blocking& b : { open, few, many, dense })
     {
-      const auto run = [&kind, b](auto judge) {
-        return [&kind, b, judge](std::uint64_t seed) { return judge(kind, b, seed); };
+      const auto run = [kind, b](auto judge) {
+        return [kind, b, judge](std::uint64_t seed) { return judge(kind, b, seed); };
       };
       cases.push_back({ kind.Name, b.Name, "cells", run(JudgeCells) });
       cases.push_back({ kind.Name, b.Name, "points", run(JudgePoints) });

@@ -56,10 +56,12 @@ Interval Extent(const Convex2& polygon)
 class LineIntegrator
 {
 public:
-  LineIntegrator(const Convex2& region, const RegionIntegrand& f, bool hidden)
+  /// `allowed`: what an interval along x may be wrong by.
+  LineIntegrator(const Convex2& region, const RegionIntegrand& f, bool hidden, double allowed)
     : Region(region)
     , Function(f)
     , Hidden(hidden)
+    , Allowed(allowed)
   {
   }
 
@@ -148,20 +150,32 @@ private:
 
   double Smooth(double lo, double hi, double y) const
   {
-    if (!(hi > lo))
+    return hi > lo ? this->Halved(lo, hi, y, this->Gauss(lo, hi, y), 12) : 0.0;
+  }
+
+  /// Halves are asked until they agree with the whole: f may bend sharply beside a line on which it
+  /// has a kink.
+  double Halved(double lo, double hi, double y, double whole, int depth) const
+  {
+    const double middle = 0.5 * (lo + hi);
+    const double left = this->Gauss(lo, middle, y);
+    const double right = this->Gauss(middle, hi, y);
+    if (depth == 0 ||
+      std::fabs(left + right - whole) <= this->Allowed + 1e-13 * std::fabs(whole))
     {
-      return 0.0;
+      return left + right;
     }
-    constexpr int panels = 2;
-    const double half = 0.5 * (hi - lo) / panels;
+    return this->Halved(lo, middle, y, left, depth - 1) +
+      this->Halved(middle, hi, y, right, depth - 1);
+  }
+
+  double Gauss(double lo, double hi, double y) const
+  {
+    const double half = 0.5 * (hi - lo);
     double sum = 0.0;
-    for (int p = 0; p < panels; ++p)
+    for (std::size_t i = 0; i < X8.size(); ++i)
     {
-      const double middle = lo + (2 * p + 1) * half;
-      for (std::size_t i = 0; i < X8.size(); ++i)
-      {
-        sum += W8[i] * this->Function.Value(middle + half * X8[i], y);
-      }
+      sum += W8[i] * this->Function.Value(lo + half * (1.0 + X8[i]), y);
     }
     return half * sum;
   }
@@ -169,6 +183,7 @@ private:
   const Convex2& Region;
   const RegionIntegrand& Function;
   bool Hidden;
+  double Allowed;
   std::vector<Interval> Dark;
   std::vector<double> Cuts;
 };
@@ -290,9 +305,11 @@ Integral IntegrateRegion(const Convex2& region, const std::vector<Convex2>& allS
   }
   const double height = lines.back() - lines.front();
   // The scale of the integral: f without shadows, coarsely.
-  const double scale =
-    std::fabs(LineIntegrator(region, f, false).Strip(lines.front(), lines.back(), {}));
-  LineIntegrator integrator(region, f, hidden);
+  const double coarse = std::numeric_limits<double>::infinity();
+  const double scale = std::fabs(
+    LineIntegrator(region, f, false, coarse).Strip(lines.front(), lines.back(), {}));
+  LineIntegrator integrator(
+    region, f, hidden, std::max(0.01 * tolerance, 1e-14) * scale / height);
   Integral sum;
   for (std::size_t k = 0; k + 1 < lines.size(); ++k)
   {
