@@ -34,6 +34,7 @@ struct CalibrationCase
   std::string Blockers;
   std::string Receivers;
   std::function<std::vector<Judged>(std::uint64_t seed)> Run;
+  bool Slow = false; // its reference takes seconds
 };
 
 /// The values of a row in classes: exact to rounding (error <= 1e-9 of the value), estimated, and
