@@ -24,6 +24,7 @@ import argparse
 import importlib.util
 import json
 import os
+import subprocess
 import sys
 
 import numpy as np
@@ -136,13 +137,18 @@ def processor():
         return next((line.split(":")[1].strip() for line in file if "model name" in line), "unknown")
 
 
+def commit():
+    found = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, check=False)
+    return found.stdout.decode().strip()
+
+
 def main():
     options = arguments()
     # The same cores for all: a library's pool may hold one thread more than it was asked for.
     os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[-options.threads:])
     found = programs(options)
     out = {"question": "error against time of direct light, beside Mitsuba 3 and Radiance",
-           "processor": processor(), "threads": options.threads, "load": os.getloadavg()[0],
+           "commit": commit(), "processor": processor(), "threads": options.threads, "load": os.getloadavg()[0],
            "cells": options.cells**2, "versions": {p.name: p.version for p in found}, "rows": []}
     for scene in scenes(options.cells):
         if options.only not in scene.name:

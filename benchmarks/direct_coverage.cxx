@@ -8,6 +8,7 @@
 ///
 ///   direct_coverage [seeds=20] [first seed=1] [only: part of the light's name]
 
+#include "benchmarks/Provenance.h"
 #include "tests/core/Calibration.h"
 
 #include <nlohmann/json.hpp>
@@ -48,6 +49,7 @@ int main(int argc, char** argv)
   const std::string only = argc > 3 ? argv[3] : "";
   nlohmann::json out;
   out["question"] = "coverage of the stated errors of direct light";
+  benchmark::AddProvenance(out);
   out["seeds"] = seeds;
   test::Calibration all;
   for (const test::CalibrationCase& one : test::CalibrationCases())

@@ -13,6 +13,7 @@
 ///
 ///   direct_scaling [greatest cells=1e7] [greatest lights=1e4] [threads=0: all] [repeats=3]
 
+#include "benchmarks/Provenance.h"
 #include "radiometry/irradiance/DirectIrradiance.h"
 #include "radiometry/irradiance/IrradianceSimulation.h"
 #include "tests/core/TestScenes.h"
@@ -25,7 +26,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -42,23 +42,9 @@ double Now()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// A line of a file of /proc that begins with `key`, as text behind it.
-std::string ProcessorField(const char* path, const std::string& key)
-{
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);)
-  {
-    if (line.rfind(key, 0) == 0)
-    {
-      return line.substr(line.find(':') + 2);
-    }
-  }
-  return "0";
-}
-
 double Resident(const char* which)
 {
-  return 1024.0 * std::atof(ProcessorField("/proc/self/status", which).c_str());
+  return 1024.0 * std::atof(benchmark::SystemField("/proc/self/status", which).c_str());
 }
 
 /// Runs `body` in a child of its own and returns what it answers.
@@ -276,7 +262,7 @@ int main(int argc, char** argv)
   setting.Repeats = argc > 4 ? std::atoi(argv[4]) : 3;
   json out;
   out["question"] = "time and memory of direct light at 1 % against cells and lights";
-  out["processor"] = ProcessorField("/proc/cpuinfo", "model name");
+  benchmark::AddProvenance(out);
   out["threads"] = setting.Threads > 0 ? setting.Threads
                                        : static_cast<int>(std::thread::hardware_concurrency());
   out["overCells"] = OverCells(cells, setting);

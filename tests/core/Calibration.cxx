@@ -71,6 +71,7 @@ std::vector<CalibrationCase> CalibrationCases()
   std::vector<CalibrationCase> cases;
   AddBeamCases(cases);
   AddAreaCases(cases);
+  AddSkyCases(cases);
   return cases;
 }
 

@@ -59,6 +59,7 @@ struct Calibration
 std::vector<CalibrationCase> CalibrationCases();
 void AddAreaCases(std::vector<CalibrationCase>& cases);
 void AddBeamCases(std::vector<CalibrationCase>& cases);
+void AddSkyCases(std::vector<CalibrationCase>& cases);
 
 // What the cases share.
 

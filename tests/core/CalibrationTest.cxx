@@ -21,9 +21,13 @@ constexpr std::size_t Enough = 100; // of a kind of light, to be judged apart fr
 
 int Seeds(const test::CalibrationCase& one)
 {
+  if (one.Slow)
+  {
+    return 0;
+  }
   if (one.Receivers == "cells")
   {
-    return one.Slow ? 0 : one.Blockers == "3000 triangles" ? 1 : one.Blockers == "none" ? 4 : 2;
+    return one.Blockers == "3000 triangles" ? 1 : one.Blockers == "none" ? 4 : 2;
   }
   return 6;
 }
