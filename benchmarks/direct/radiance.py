@@ -90,22 +90,24 @@ class Radiance:
 
     @staticmethod
     def settings(scene, receivers, rng):
-        if receivers == "points":
-            if scene.point is not None:
-                yield "-dj 0", scene.centres(), ["-dj", "0", "-ds", "0"], 1
-                return
-            for size in (0.6, 0.3, 0.15, 0.08, 0.04, 0.02, 0.01, 0.005):
-                yield f"-ds {size} -dj 0.7", scene.centres(), ["-dj", "0.7", "-ds", f"{size}"], 1
+        """Setting, points, options and points a receiver, from coarse to fine.
+
+        Panels are cut into parts (-ds) with a random place in each (-dj); rtrace makes 64 of them at
+        most, so finer runs ask more points a cell, or the same point again with other random places.
+        """
+        fixed = ["-dj", "0", "-ds", "0"]
+        if scene.point is not None and receivers == "points":
+            yield "-dj 0", scene.centres(), fixed, 1
             return
-        for k in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48):
+        if scene.point is not None:
+            steps = [(k, 0) for k in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48)]
+        else:
+            steps = [(1, 0.6), (1, 0.3), (1, 0.15), (1, 0.08), (2, 0.08), (2, 0.04), (3, 0.04),
+                     (4, 0.04), (6, 0.04), (8, 0.04), (12, 0.04), (16, 0.04), (24, 0.04)]
+        for k, size in steps:
             u = np.stack(np.meshgrid(np.arange(k), np.arange(k), indexing="xy"), -1).reshape(-1, 2)
-            if scene.point is not None:
-                u = np.broadcast_to(u, (scene.cells**2, k * k, 2))
-                u = (u + rng.random(u.shape)) / k
-                options = ["-dj", "0", "-ds", "0"]
-            else:
-                # One random place of the panel a point: the average needs no more.
-                u = np.broadcast_to(u, (scene.cells**2, k * k, 2))
-                u = (u + rng.random(u.shape)) / k
-                options = ["-dj", "1", "-ds", "0"]
-            yield f"{k * k} points a cell", scene.on_cells(u).reshape(-1, 3), options, k * k
+            u = np.broadcast_to(u, (scene.cells**2, k * k, 2))
+            u = (u + rng.random(u.shape)) / k if receivers == "cells" else np.full(u.shape, 0.5)
+            options = ["-dj", "0.9", "-ds", f"{size}"] if size else fixed
+            name = f"{k * k} points a receiver" + (f", -ds {size}" if size else "")
+            yield name, scene.on_cells(u).reshape(-1, 3), options, k * k
