@@ -21,31 +21,31 @@ const double Pi = std::acos(-1.0);
 /// Radiance toward a unit direction above the horizon.
 using Radiance = std::function<double(const Vec3&)>;
 
-/// Irradiance of the whole sky on level ground: Gauss-Legendre of two points in each of many bands of
-/// equal sin^2, midpoints along the azimuth.
-Integral WholeSky(const Radiance& sky, int bands)
+/// Irradiance of the whole sky on level ground: L over the disc of (sin theta cos phi, sin theta sin
+/// phi), where the cosine is the projection's.
+Integral WholeSky(const Radiance& sky, const Vec3& sun, double tolerance)
 {
-  double sums[2] = { 0.0, 0.0 };
-  for (int fine = 0; fine < 2; ++fine)
-  {
-    const int n = fine ? bands : bands / 2;
-    for (int i = 0; i < n; ++i)
+  RegionIntegrand f;
+  f.Value = [&](double x, double y) {
+    const double z2 = 1.0 - x * x - y * y;
+    return z2 > 0.0 ? sky({ x, y, std::sqrt(z2) }) : 0.0;
+  };
+  f.OnLine = [&](const Point2& o, const Point2& d, std::vector<double>& s) {
+    const double a = d.x * d.x + d.y * d.y;
+    const double b = o.x * d.x + o.y * d.y;
+    const double root = b * b - a * (o.x * o.x + o.y * o.y - 1.0);
+    if (root >= 0.0)
     {
-      for (const double x : { 0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12) })
-      {
-        const double u = (i + x) / n; // sin^2(theta)
-        double ring = 0.0;
-        for (int j = 0; j < 4 * n; ++j)
-        {
-          const double phi = 2.0 * Pi * (j + 0.5) / (4 * n);
-          ring += sky({ std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi),
-            std::sqrt(1.0 - u) });
-        }
-        sums[fine] += Pi * ring / (4 * n) / (2 * n);
-      }
+      s.push_back((-b - std::sqrt(root)) / a);
+      s.push_back((-b + std::sqrt(root)) / a);
     }
-  }
-  return { sums[1], std::fabs(sums[1] - sums[0]) + 1e-13 * sums[1] };
+    if (d.y == 0.0)
+    {
+      s.push_back((sun.x - o.x) / d.x);
+    }
+  };
+  f.Extremes = { sun.y };
+  return IntegrateRegion({ { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } }, {}, f, tolerance);
 }
 
 PointReference Reference(const Radiance& sky, const Integral& whole)
@@ -127,7 +127,7 @@ PointReference General(CalibrationScene& scene, Random& random)
     const double chi = std::atan2(Length(Cross(d, sun)), Dot(d, sun));
     return l * indicatrix(chi) * (1.0 + k[0] * std::exp(k[1] / std::max(d.z, 1e-300))) / zenith;
   };
-  return Reference(sky, WholeSky(sky, 200));
+  return Reference(sky, WholeSky(sky, sun, 1e-7));
 }
 
 } // namespace
