@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/ShadowCutter.h"
 
+#include "radiometry/geometry/DividePolygon.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,63 +19,6 @@ constexpr std::size_t MostLines = 6;
 constexpr double Deviations = 2.5;
 /// More candidates than this: quarter without listing them all.
 constexpr std::size_t MostCandidates = 256;
-
-/// Divides a convex polygon by a plane; corners within `tolerance` belong to both halves.
-void Divide(const std::vector<Vec3>& polygon, const Vec3& normal, const Vec3& through,
-  double tolerance, std::vector<Vec3>& front, std::vector<Vec3>& back)
-{
-  front.clear();
-  back.clear();
-  bool anyFront = false;
-  bool anyBack = false;
-  const std::size_t n = polygon.size();
-  for (std::size_t k = 0; k < n; ++k)
-  {
-    const Vec3& a = polygon[k];
-    const Vec3& b = polygon[(k + 1) % n];
-    const double ha = Dot(normal, a - through);
-    const double hb = Dot(normal, b - through);
-    if (ha >= -tolerance)
-    {
-      front.push_back(a);
-    }
-    if (ha <= tolerance)
-    {
-      back.push_back(a);
-    }
-    anyFront = anyFront || ha > tolerance;
-    anyBack = anyBack || ha < -tolerance;
-    if ((ha > tolerance && hb < -tolerance) || (ha < -tolerance && hb > tolerance))
-    {
-      const Vec3 cut = a + (ha / (ha - hb)) * (b - a);
-      front.push_back(cut);
-      back.push_back(cut);
-    }
-  }
-  if (!anyFront)
-  {
-    front.clear();
-  }
-  if (!anyBack)
-  {
-    back.clear();
-  }
-}
-
-Vec3 Middle(const std::vector<Vec3>& polygon)
-{
-  // The centroid by area, so that it is well inside also when corners crowd together.
-  Vec3 sum;
-  double weights = 0.0;
-  for (std::size_t k = 2; k < polygon.size(); ++k)
-  {
-    const Triangle3 t{ polygon[0], polygon[k - 1], polygon[k] };
-    const double area = Area(t);
-    sum += area * Centroid(t);
-    weights += area;
-  }
-  return weights > 0.0 ? sum / weights : polygon[0];
-}
 
 struct Part
 {
@@ -230,7 +175,7 @@ void ShadowCutter::Cut(const Patch& patch, const Triangle3& part,
     next.clear();
     for (const Polygon& piece : pieces)
     {
-      Divide(piece, n, line.A, 1e-13 * size, front, back);
+      DivideConvex(piece, n, line.A, 1e-13 * size, front, back);
       if (!front.empty())
       {
         next.push_back(front);
@@ -250,7 +195,7 @@ void ShadowCutter::Cut(const Patch& patch, const Triangle3& part,
     {
       continue;
     }
-    this->AddPiece({ Middle(piece), patch.Triangle }, flux, quadrature, result);
+    this->AddPiece({ MiddleOfConvex(piece), patch.Triangle }, flux, quadrature, result);
   }
 }
 
