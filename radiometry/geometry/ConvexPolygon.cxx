@@ -124,6 +124,42 @@ bool Clip(const ConvexPolygon& polygon, const double* heights, ConvexPolygon& ab
   return Split(polygon, heights, above, below);
 }
 
+void Halve(const ConvexPolygon& piece, ConvexPolygon halves[2])
+{
+  // From the middle of the longest edge to the corner or edge opposite.
+  int longest = 0;
+  double length = -1.0;
+  for (int k = 0; k < piece.N; ++k)
+  {
+    const double l = LengthSquared(piece.P[(k + 1) % piece.N] - piece.P[k]);
+    if (l > length)
+    {
+      length = l;
+      longest = k;
+    }
+  }
+  const auto at = [&](int k) { return piece.P[(longest + 1 + k) % piece.N]; };
+  const Vec3 start = 0.5 * (at(-1 + piece.N) + at(0));
+  const int steps = piece.N - 1; // edges from the longest's end around to its begin
+  const int middle = steps / 2;
+  const Vec3 end = steps % 2 == 0 ? at(middle) : 0.5 * (at(middle) + at(middle + 1));
+  halves[0].Add(start);
+  for (int k = 0; k <= middle; ++k)
+  {
+    halves[0].Add(at(k));
+  }
+  if (steps % 2 == 1)
+  {
+    halves[0].Add(end);
+  }
+  halves[1].Add(end);
+  for (int k = middle + 1; k <= steps; ++k)
+  {
+    halves[1].Add(at(k));
+  }
+  halves[1].Add(start);
+}
+
 double PointToVisiblePolygon(const Vec3& x, const Vec3& n, const ConvexPolygon& polygon)
 {
   double sum = 0.0;

@@ -12,11 +12,22 @@ namespace radiometry
 /// A flat convex polygon of some corners, without allocation: what clipping makes of smaller ones.
 struct ConvexPolygon
 {
-  static constexpr int Capacity = 16;
+  static constexpr int Capacity = 32;
   Vec3 P[Capacity];
   int N = 0;
 
   ConvexPolygon() = default;
+  ConvexPolygon(const ConvexPolygon& other) { *this = other; }
+  /// Copies the corners that are there.
+  ConvexPolygon& operator=(const ConvexPolygon& other)
+  {
+    this->N = other.N;
+    for (int k = 0; k < other.N; ++k)
+    {
+      this->P[k] = other.P[k];
+    }
+    return *this;
+  }
   explicit ConvexPolygon(const Triangle3& t)
     : P{ t[0], t[1], t[2] }
     , N(3)
@@ -42,6 +53,9 @@ bool Split(
 
 /// The part where the heights are positive, as above.
 bool Clip(const ConvexPolygon& polygon, const double* heights, ConvexPolygon& above);
+
+/// Two halves, from the middle of the longest edge to what lies opposite.
+void Halve(const ConvexPolygon& piece, ConvexPolygon halves[2]);
 
 /// Irradiance at x about n for unit exitance of the polygon's front, which x is known to see wholly
 /// above its horizon (see PointToVisiblePolygon).

@@ -269,7 +269,10 @@ void AreaReceiver::Evaluate(
     return;
   }
 
-  const bool few = part.Listed && this->View.Few(part.Inside);
+  const std::vector<std::int32_t> casters = part.Listed
+    ? blockers.Casters(part.Inside, source.Normal, source.Outline.P[0])
+    : std::vector<std::int32_t>{};
+  const bool few = part.Listed && this->View.Few(casters);
   SampleMean samples(part.Whole / Area(part.Corners));
   const std::uint64_t partKey = Hash64(key, Hash64(part.Source, part.Path));
   const Triangle3& c = part.Corners;
@@ -282,7 +285,7 @@ void AreaReceiver::Evaluate(
       const Vec3 b = TrianglePoint({ Vec3{ 1, 0, 0 }, Vec3{ 0, 1, 0 }, Vec3{ 0, 0, 1 } }, u[0], u[1]);
       const Vec3 x = c[0] + b.y * (c[1] - c[0]) + b.z * (c[2] - c[0]);
       const SeenSource seen = this->View.See({ x, { x, patch.Triangle }, n, {} }, part.Source,
-        few ? &part.Inside : nullptr, WorkASample,
+        few ? &casters : nullptr, WorkASample,
         Hash64(partKey, static_cast<std::uint64_t>(64 + set * SampleMean::Each + i)));
       rays += seen.Rays;
       samples.Add(b.y, b.z, seen.Whole, seen.Visible);

@@ -22,43 +22,6 @@ double Left(double sum, double whole)
   return sum <= Crack * whole ? 0.0 : std::min(sum, whole);
 }
 
-/// Two halves of a convex polygon, across its longest extent from one corner.
-void Halve(const ConvexPolygon& piece, ConvexPolygon halves[2])
-{
-  // From the middle of the longest edge to the corner or edge opposite.
-  int longest = 0;
-  double length = -1.0;
-  for (int k = 0; k < piece.N; ++k)
-  {
-    const double l = LengthSquared(piece.P[(k + 1) % piece.N] - piece.P[k]);
-    if (l > length)
-    {
-      length = l;
-      longest = k;
-    }
-  }
-  const auto at = [&](int k) { return piece.P[(longest + 1 + k) % piece.N]; };
-  const Vec3 start = 0.5 * (at(-1 + piece.N) + at(0));
-  const int steps = piece.N - 1; // edges from the longest's end around to its begin
-  const int middle = steps / 2;
-  const Vec3 end = steps % 2 == 0 ? at(middle) : 0.5 * (at(middle) + at(middle + 1));
-  halves[0].Add(start);
-  for (int k = 0; k <= middle; ++k)
-  {
-    halves[0].Add(at(k));
-  }
-  if (steps % 2 == 1)
-  {
-    halves[0].Add(end);
-  }
-  halves[1].Add(end);
-  for (int k = middle + 1; k <= steps; ++k)
-  {
-    halves[1].Add(at(k));
-  }
-  halves[1].Add(start);
-}
-
 } // namespace
 
 struct SourceView::Part
@@ -97,7 +60,7 @@ std::size_t SourceView::CountPanes(const std::vector<std::int32_t>& triangles) c
 {
   return !this->Panes ? 0
                       : static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(),
-                          [&](std::int32_t t) { return (*this->Panes)[t] != 0; }));
+                          [&](std::int32_t t) { return this->IsPane(t); }));
 }
 
 /// What of the light passes between a point and a place on a source.
@@ -140,7 +103,7 @@ bool SourceView::Cut(const ViewPoint& from, std::size_t s,
   {
     for (const std::int32_t t : triangles)
     {
-      if (((*this->Panes)[t] != 0) != pane)
+      if (this->IsPane(t) != pane)
       {
         continue;
       }
@@ -193,17 +156,20 @@ void SourceView::Look(
   inside.clear();
   const bool all = this->Blocking->InShaft(pyramid, MostProof, inside);
   inside.erase(std::remove(inside.begin(), inside.end(), from.End.Triangle), inside.end());
+  const std::vector<std::int32_t> casters = all
+    ? this->Blocking->Casters(inside, source.Normal, source.Outline.P[0])
+    : std::vector<std::int32_t>{};
   part.Decided = true;
   if (inside.empty())
   {
     part.Visible = part.Whole;
   }
-  else if (all && this->Few(inside))
+  else if (all && this->Few(casters))
   {
     static thread_local Pieces pieces;
     pieces.assign(1, part.Piece);
     part.Visible = part.Whole;
-    part.Touched = this->Cut(from, s, inside, pieces, part.Visible, rays);
+    part.Touched = this->Cut(from, s, casters, pieces, part.Visible, rays);
     part.Visible = Left(part.Visible, part.Whole);
   }
   else if (all && this->CountPanes(inside) == 0 &&

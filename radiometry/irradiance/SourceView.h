@@ -42,18 +42,22 @@ public:
   SourceView(const AreaSources& sources, const Blockers* blockers, const OcclusionScene& occluders,
     int band = -1);
 
-  /// `inside`: the triangles that may stand between, where they are known to be few; else null.
+  /// `casters`: what may cast shadows (Blockers::Casters), where that is known to be few; else null.
   SeenSource See(const ViewPoint& from, std::size_t source,
-    const std::vector<std::int32_t>* inside, int work, std::uint64_t key) const;
+    const std::vector<std::int32_t>* casters, int work, std::uint64_t key) const;
 
-  /// The most triangles whose shadows are cut out one by one.
+  /// The most triangles and groups whose shadows are cut out one by one.
   static constexpr std::size_t MostCut = 192;
   /// The most triangles among which a proof is looked for.
-  static constexpr std::size_t MostProof = 1024;
+  static constexpr std::size_t MostProof = 16384;
 
   /// The most panes whose shadows are cut out one by one.
   static constexpr std::size_t MostPanes = 24;
 
+  bool IsPane(std::int32_t caster) const
+  {
+    return this->Panes && !this->Blocking->IsGroup(caster) && (*this->Panes)[caster] != 0;
+  }
   /// How many of some triangles let light through.
   std::size_t CountPanes(const std::vector<std::int32_t>& triangles) const;
   /// True when the shadows of so many triangles are cut out one by one.

@@ -8,6 +8,9 @@ namespace radiometry
 namespace
 {
 
+/// More would be needed only for a shadow that is too small for its rounding.
+constexpr int MostHalvings = 40;
+
 /// Heights of the corners over the plane through x, those within rounding of it taken as on it.
 /// Returns 1 where none is below, -1 where none is above, else 0.
 int Heights(const ConvexPolygon& p, const Vec3& x, const Vec3& n, double margin, double* heights)
@@ -24,66 +27,103 @@ int Heights(const ConvexPolygon& p, const Vec3& x, const Vec3& n, double margin,
   return above && below ? 0 : (above ? 1 : -1);
 }
 
-/// The shadow of a triangle on what lies beyond it: inside where all heights are positive.
+/// A convex shadow on what lies beyond its caster: inside where all heights are positive.
 struct Shadow
 {
-  Vec3 Normal[4];
-  Vec3 Through[4];
-  double Margin[4];
-
-  /// False where x lies on the triangle's plane: then it hides nothing.
-  bool Make(const Vec3& x, const Triangle3& v, const Vec3& n, double rounding)
+  struct Plane
   {
-    const double height = Dot(n, x - v[0]);
+    Vec3 Normal;
+    Vec3 Through;
+    double Margin;
+  };
+  std::vector<Plane> Planes;
+
+  /// The planes through x and the rim of a flat caster, and its own. False where x lies on its plane:
+  /// then it hides nothing.
+  bool OfSheet(
+    const Vec3& x, const Vec3* rim, std::size_t count, const Vec3& n, double rounding)
+  {
+    this->Planes.clear();
+    const double height = Dot(n, x - rim[0]);
     if (std::fabs(height) <= rounding)
     {
       return false;
     }
     const double side = height < 0.0 ? 1.0 : -1.0; // so that inside and beyond are positive
-    for (int k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < count; ++k)
     {
-      this->Normal[k] = side * Cross(v[k] - x, v[(k + 1) % 3] - v[k]);
-      this->Through[k] = x;
-      this->Margin[k] = rounding * std::sqrt(LengthSquared(this->Normal[k]));
+      const Vec3 normal = side * Cross(rim[k] - x, rim[(k + 1) % count] - rim[k]);
+      this->Planes.push_back({ normal, x, rounding * std::sqrt(LengthSquared(normal)) });
     }
-    this->Normal[3] = side * n;
-    this->Through[3] = v[0];
-    this->Margin[3] = rounding;
+    this->Planes.push_back({ side * n, rim[0], rounding });
     return true;
+  }
+
+  /// The planes through x and the edges between the faces of a body that x sees and those that it
+  /// does not. False where it sees none: x is inside or on the body.
+  bool OfBody(const Vec3& x, const ConvexGroup& body, const Blockers& blockers)
+  {
+    static thread_local std::vector<std::uint8_t> seen;
+    this->Planes.clear();
+    seen.assign(body.Triangles.size(), 0);
+    bool any = false;
+    for (std::size_t f = 0; f < seen.size(); ++f)
+    {
+      const std::int32_t t = body.Triangles[f];
+      seen[f] =
+        body.Outward * Dot(blockers.Normal(t), x - blockers[t][0]) > blockers.Rounding() ? 1 : 0;
+      any = any || seen[f];
+    }
+    for (const ConvexGroup::Edge& e : body.Edges)
+    {
+      if (seen[e.Faces[0]] != seen[e.Faces[1]])
+      {
+        Vec3 normal = Cross(e.A - x, e.B - e.A);
+        normal = Dot(normal, body.Middle - x) < 0.0 ? -normal : normal;
+        this->Planes.push_back(
+          { normal, x, blockers.Rounding() * std::sqrt(LengthSquared(normal)) });
+      }
+    }
+    return any;
   }
 
   /// Adds to `rest` what of `piece` is not in the shadow, and to `hidden` (or null) what is. False
   /// where all of it is lit.
-  bool Cut(const ConvexPolygon& piece, Pieces& rest, Pieces* hidden) const
+  bool Cut(const ConvexPolygon& piece, Pieces& rest, Pieces* hidden, int depth = 0) const
   {
     ConvexPolygon inside = piece;
-    ConvexPolygon outside[4];
-    int cuts = 0;
+    const std::size_t before = rest.size();
+    ConvexPolygon next;
+    ConvexPolygon outside;
     double heights[ConvexPolygon::Capacity];
-    for (int k = 0; k < 4; ++k)
+    for (const Plane& plane : this->Planes)
     {
-      const int side = Heights(inside, this->Through[k], this->Normal[k], this->Margin[k], heights);
+      const int side = Heights(inside, plane.Through, plane.Normal, plane.Margin, heights);
       if (side < 0)
       {
+        rest.resize(before);
         return false;
       }
       if (side > 0)
       {
         continue;
       }
-      ConvexPolygon next;
-      if (!Split(inside, heights, next, outside[cuts]))
+      if (!Split(inside, heights, next, outside))
       {
-        return this->CutHalves(piece, rest, hidden);
+        rest.resize(before);
+        return depth < MostHalvings && this->CutHalves(piece, rest, hidden, depth + 1);
       }
       if (next.N == 0)
       {
+        rest.resize(before);
         return false;
       }
-      cuts += outside[cuts].N > 0 ? 1 : 0;
+      if (outside.N > 0)
+      {
+        rest.push_back(outside);
+      }
       inside = next;
     }
-    rest.insert(rest.end(), outside, outside + cuts);
     if (hidden)
     {
       hidden->push_back(inside);
@@ -92,22 +132,14 @@ struct Shadow
   }
 
   /// The same, where the corners were too many at once.
-  bool CutHalves(const ConvexPolygon& piece, Pieces& rest, Pieces* hidden) const
+  bool CutHalves(const ConvexPolygon& piece, Pieces& rest, Pieces* hidden, int depth) const
   {
     ConvexPolygon halves[2];
-    const int middle = piece.N / 2;
-    for (int k = 0; k <= middle; ++k)
-    {
-      halves[0].Add(piece.P[k]);
-    }
-    for (int k = middle; k <= piece.N; ++k)
-    {
-      halves[1].Add(piece.P[k % piece.N]);
-    }
+    Halve(piece, halves);
     bool any = false;
     for (const ConvexPolygon& half : halves)
     {
-      if (this->Cut(half, rest, hidden))
+      if (this->Cut(half, rest, hidden, depth))
       {
         any = true;
       }
@@ -166,18 +198,40 @@ void PiecesAbove(
   }
 }
 
-bool CutShadows(const Vec3& x, const Blockers& blockers, const std::int32_t* triangles,
+bool CutShadows(const Vec3& x, const Blockers& blockers, const std::int32_t* casters,
   std::size_t count, Pieces& pieces, Pieces* hidden)
 {
   static thread_local Pieces rest;
+  static thread_local Shadow shadow;
   bool touched = false;
   for (std::size_t k = 0; k < count && !pieces.empty(); ++k)
   {
-    Shadow shadow;
-    const std::int32_t t = triangles[k];
-    if (!shadow.Make(x, blockers[t], blockers.Normal(t), blockers.Rounding()))
+    const std::int32_t c = casters[k];
+    if (!blockers.IsGroup(c))
     {
-      continue;
+      if (!shadow.OfSheet(x, blockers[c].data(), 3, blockers.Normal(c), blockers.Rounding()))
+      {
+        continue;
+      }
+    }
+    else
+    {
+      const ConvexGroup& group = blockers.Group(c);
+      if (!group.Rim.empty())
+      {
+        if (!shadow.OfSheet(
+              x, group.Rim.data(), group.Rim.size(), group.Normal, blockers.Rounding()))
+        {
+          continue;
+        }
+      }
+      else if (!shadow.OfBody(x, group, blockers))
+      {
+        touched = CutShadows(x, blockers, group.Triangles.data(), group.Triangles.size(), pieces,
+                    hidden) ||
+          touched;
+        continue;
+      }
     }
     rest.clear();
     bool cut = false;

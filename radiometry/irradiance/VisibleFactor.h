@@ -21,12 +21,13 @@ void PiecesAbove(
 /// Irradiance at x about n for unit exitance of the pieces: Lambert's contour formula.
 double Factor(const Vec3& x, const Vec3& n, const Pieces& pieces);
 
-/// Cuts the shadows of triangles out of the pieces, in closed form: seen from x, a triangle hides
-/// what lies inside the three planes through x and its edges and beyond its own plane. Returns
-/// whether anything was hidden. `hidden`, where given, gets the parts that were cut out.
+/// Cuts the shadows of triangles and convex groups of them out of the pieces, in closed form: seen from
+/// x, a flat caster hides what lies inside the planes through x and its edges and beyond its own plane; a
+/// body what lies inside the planes through x and the edges at which the faces that x sees end.
+/// Returns whether anything was hidden. `hidden`, where given, gets the parts that were cut out.
 ///   Error  rounding only; what lies within rounding of such a plane belongs to both of its sides
-///   Cost   some 0.1 us for each triangle, and for each piece that it divides
-bool CutShadows(const Vec3& x, const Blockers& blockers, const std::int32_t* triangles,
+///   Cost   some 0.1 us for each caster (a body: 5 ns a face), and for each piece that it divides
+bool CutShadows(const Vec3& x, const Blockers& blockers, const std::int32_t* casters,
   std::size_t count, Pieces& pieces, Pieces* hidden = nullptr);
 
 } // namespace radiometry

@@ -75,7 +75,48 @@ Blockers::Blockers(const Scene& scene)
     this->EdgeOf[side.Triangle][side.Corner] = static_cast<std::int32_t>(this->First.size()) - 1;
     this->Opposite.push_back(this->Triangles[side.Triangle][(side.Corner + 2) % 3]);
   }
+  this->Groups =
+    std::make_unique<ConvexGroups>(scene, this->EdgeOf, this->First.size(), this->Tolerance);
   this->First.push_back(static_cast<std::int32_t>(sides.size()));
+}
+
+std::vector<std::int32_t> Blockers::Casters(
+  const std::vector<std::int32_t>& triangles, const Vec3& normal, const Vec3& through) const
+{
+  const auto before = [&](const ConvexGroup& group) {
+    return std::all_of(group.Corners.begin(), group.Corners.end(),
+      [&](const Vec3& p) { return Dot(normal, p - through) >= -this->Tolerance; });
+  };
+  std::vector<std::int32_t> casters;
+  std::vector<std::int32_t> groups;  // those met, and
+  std::vector<std::uint8_t> counted; // whether they stand for their members
+  for (const std::int32_t t : triangles)
+  {
+    const std::int32_t g = this->Groups->Of(t);
+    if (g < 0)
+    {
+      casters.push_back(t);
+      continue;
+    }
+    auto at = static_cast<std::size_t>(
+      std::find(groups.rbegin(), groups.rend(), g).base() - groups.begin());
+    if (at == 0)
+    {
+      const ConvexGroup& group = (*this->Groups)[static_cast<std::size_t>(g)];
+      groups.push_back(g);
+      counted.push_back(!group.Rim.empty() || before(group) ? 1 : 0);
+      at = groups.size();
+      if (counted.back())
+      {
+        casters.push_back(g + static_cast<std::int32_t>(this->Triangles.size()));
+      }
+    }
+    if (!counted[at - 1])
+    {
+      casters.push_back(t);
+    }
+  }
+  return casters;
 }
 
 bool Blockers::AnyNear(const Box3& box) const
@@ -224,12 +265,19 @@ bool Blockers::Closed(
 bool Blockers::HideAll(const ConvexPolygon& receiver, const ConvexPolygon& light,
   const Shaft& shaft, const std::vector<std::int32_t>& inside) const
 {
+  // Among so many, one that covers all is not worth looking for.
+  constexpr std::size_t mostCovers = 64;
+  const bool some = inside.size() <= mostCovers;
   bool closed = !inside.empty();
   for (const std::int32_t t : inside)
   {
+    if (!closed && !some)
+    {
+      return false;
+    }
     if (this->Parts(t, receiver, light))
     {
-      if (this->Covers(t, receiver, light))
+      if (some && this->Covers(t, receiver, light))
       {
         return true;
       }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "radiometry/visibility/Shaft.h"
 #include "radiometry/scene/Scene.h"
+#include "radiometry/visibility/ConvexGroups.h"
+#include "radiometry/visibility/Shaft.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace radiometry
@@ -30,6 +32,20 @@ public:
   /// were more.
   bool InShaft(const Shaft& shaft, std::size_t most, std::vector<std::int32_t>& found) const;
 
+  /// What casts the shadows of triangles that stand before a light on the plane about `normal`: groups,
+  /// numbered after the triangles, in place of their members. A body counts where the light is all
+  /// beyond it.
+  std::vector<std::int32_t> Casters(
+    const std::vector<std::int32_t>& triangles, const Vec3& normal, const Vec3& through) const;
+  bool IsGroup(std::int32_t caster) const
+  {
+    return caster >= static_cast<std::int32_t>(this->Triangles.size());
+  }
+  const ConvexGroup& Group(std::int32_t caster) const
+  {
+    return (*this->Groups)[static_cast<std::size_t>(caster) - this->Triangles.size()];
+  }
+
   /// Proof that nothing of the light is seen from anywhere on the receiver. `inside`: all that
   /// touches their shaft.
   ///   Either  one triangle stands across all segments between corners (the crossings of a plane
@@ -54,6 +70,7 @@ private:
   std::vector<std::array<std::int32_t, 3>> EdgeOf;
   std::vector<std::int32_t> First;
   std::vector<Vec3> Opposite;
+  std::unique_ptr<ConvexGroups> Groups;
 };
 
 } // namespace radiometry

@@ -533,3 +533,45 @@ TEST(AreaIrradiance, BadPolygonsAreNamed)
   const World line(Floor(1, 1), { Panel({ { 0, 0, 1 }, { 1, 0, 1 }, { 2, 0, 1 } }, 1.0) });
   EXPECT_EQ(line.Cells(2).Irradiance[0], 0.0);
 }
+
+TEST(AreaIrradiance, ConvexGroupsCastTheShadowsOfTheirTriangles)
+{
+  // A ball, a box that stands on the floor and a divided plate, against the same with one triangle
+  // missing (a gap too small to matter): those are taken triangle by triangle.
+  const auto lit = [](bool broken, const Vec3& x) {
+    test::Mesh mesh = Floor(4.0, 1);
+    const auto chip = [&](std::size_t first) {
+      // Replaces a triangle by nearly all of it, no longer joined to the others.
+      auto& t = mesh.Triangles[first];
+      const auto n = static_cast<std::int32_t>(mesh.Points.size());
+      const Vec3 a = mesh.Points[t[0]], b = mesh.Points[t[1]], c = mesh.Points[t[2]];
+      const Vec3 m = (a + b + c) / 3.0;
+      for (const Vec3& p : { a, b, c })
+      {
+        mesh.Points.push_back(p + 1e-9 * (m - p));
+      }
+      t = { n, n + 1, n + 2 };
+    };
+    std::size_t at = mesh.Triangles.size();
+    mesh.AddSphere({ 0.1, -0.2, 0.6 }, 0.25, 9, false);
+    broken ? chip(at) : void();
+    at = mesh.Triangles.size();
+    mesh.AddBox({ 0.4, 0.3, 0 }, { 0.7, 0.5, 0.5 }, 2, false);
+    broken ? chip(at) : void();
+    at = mesh.Triangles.size();
+    mesh.AddGrid({ -0.7, 0.1, 0.8 }, { 0.4, 0, 0.1 }, { 0.1, 0.3, 0 }, 4, 3);
+    broken ? chip(at) : void();
+    const World w(mesh, { Rectangle({ 0, 0, 1.2 }, { 0, 0.4, 0 }, { 0.5, 0, 0 }, 10.0) });
+    return w.At(x, { 0, 0, 1 }).Irradiance[0];
+  };
+  int partly = 0;
+  for (const Vec3& x : { Vec3{ 0, 0, 0 }, Vec3{ 0.9, 0.7, 0 }, Vec3{ 0.39, 0.4, 0 },
+         Vec3{ -0.8, 0.4, 0 }, Vec3{ 0.55, 0.4, 0.1 }, Vec3{ 0.1, -0.2, 0.2 }, Vec3{ 0.5, -0.5, 0 },
+         Vec3{ 0.8, 0.5, 0 }, Vec3{ -0.45, 0.3, 0.5 } })
+  {
+    const double grouped = lit(false, x);
+    EXPECT_NEAR(grouped, lit(true, x), 1e-6) << x.x << " " << x.y << " " << x.z;
+    partly += grouped > 0.0;
+  }
+  EXPECT_GE(partly, 6);
+}
