@@ -59,24 +59,23 @@ class Light:
 
 
 def _lights_of(data):
+    """The lights in the order of their (first) points, which is that of LightNames."""
     names = data.GetFieldData().GetAbstractArray("LightNames")
     known = names.GetNumberOfValues() if names else 0
-
-    def name(index, number):
-        words = names.GetValue(index) if index < known else ""
-        return words or str(number)
-
     kinds = data.GetPointData().GetArray("LightType")
     kinds = vtk_to_numpy(kinds) if kinds else np.zeros(data.GetNumberOfPoints())
-    found = []
-    for index in np.flatnonzero(kinds != AREA):
-        found.append(Light(data, int(index), [int(index)], name(int(index), len(found))))
+    places = [[int(index)] for index in np.flatnonzero(kinds != AREA)]
     corners = vtkIdList()
     for cell in range(data.GetNumberOfCells()):
         data.GetCellPoints(cell, corners)
         points = [corners.GetId(k) for k in range(corners.GetNumberOfIds())]
         if len(points) >= 3 and kinds[points[0]] == AREA:
-            found.append(Light(data, points[0], points, name(points[0], len(found))))
+            places.append(points)
+    places.sort()
+    found = []
+    for number, points in enumerate(places):
+        name = names.GetValue(number) if number < known else ""
+        found.append(Light(data, points[0], points, name or str(number)))
     return found
 
 
