@@ -10,9 +10,11 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
 from front_end import listing, require
-from vtkradiometry import mesh, view_mesh
+from vtkradiometry import (glyphs, mesh, view_mesh, vtkAreaLightSource, vtkEnvironmentLightSource,
+                           vtkPointLightSource)
 from vtkradiometry.camera import Camera
 from vtkradiometry.files import OutputFolder
+from vtkradiometry.lights import Lights
 from vtkradiometry.scales import Scale, nice_step, weighted_quantile
 
 # Refining keeps the area, respects the edge length and leaves no gaps.
@@ -154,3 +156,31 @@ with tempfile.TemporaryDirectory() as where:
                 == [output.aside], "visible before it was published")
         output.publish()
     require([os.path.basename(p) for p in listing(out)] == ["one.txt"], listing(out))
+
+# Lights of every kind: names, kinds, places; glyphs and legend; soft ones switched off.
+panel, heaven, bulb = vtkAreaLightSource(), vtkEnvironmentLightSource(), vtkPointLightSource()
+panel.SetLightName("panel")
+panel.SetPosition(0.0, 0.0, 2.0)
+heaven.SetLightName("sky")
+heaven.SunOn()
+bulb.SetLightName("bulb")
+for source in (panel, heaven, bulb):
+    source.Update()
+everything = Lights(*(source.GetOutput() for source in (panel, heaven, bulb)))
+require([light.words for light in everything] == ["area", "environment", "directional", "point"],
+        [light.words for light in everything])
+require([light.name for light in everything] == ["panel", "sky", "sky sun", "bulb"],
+        [light.name for light in everything])
+rows = everything.rows()
+require(np.allclose(rows[0]["Position"], [0.0, 0.0, 2.0]), rows[0])
+require(rows[1]["Position"] is None and rows[1]["Unit"] == "W/(m^2 sr)", rows[1])
+require(everything.soft and everything.lit, "soft and lit")
+sharp = everything.sharp()
+require(not sharp.soft and [light.enabled for light in sharp] == [False, False, True, True],
+        [light.enabled for light in sharp])
+require(all(light.enabled for light in everything), "sharp() changes the lights themselves")
+stage = vtkRenderer()
+legend = glyphs.add(stage, everything, (0.0, 1.0, 0.0, 1.0, 0.0, 2.0), viewer, 1.5)
+require([words for _, words in legend] == ["point light", "directional light", "area light", "sky"],
+        legend)
+require(stage.GetActors().GetNumberOfItems() >= 6, "a polygon, its outline, an arrow and three more")
