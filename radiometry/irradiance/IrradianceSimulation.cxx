@@ -173,6 +173,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
     if (options.RefineShadowBoundaries)
     {
       begin = 0.3 * middle;
+      limit();
       result.Pieces = CutAlongShadows(scene, occluders, direct, sides == 2, options.PiecesPerCell,
         { monitor, 0.02, begin, "cutting along shadows" });
       patches = MakePatches(scene, result.Pieces, sides == 2);
@@ -236,6 +237,10 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   }
   result.Outcome = timedOut ? "the time budget ended the run before every value met its tolerance"
                             : "every value met its tolerance or is as fine as can be";
+  if (result.Pieces.TimedOut)
+  {
+    result.Outcome += "; no time was left to cut all cells along the edges of shadows";
+  }
   if (result.Pieces.Full > 0)
   {
     result.Outcome += "; " + std::to_string(result.Pieces.Full) +

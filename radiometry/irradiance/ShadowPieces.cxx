@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <limits>
 #include <unordered_map>
@@ -68,6 +69,8 @@ ShadowPieces CutAlongShadows(const Scene& scene, const OcclusionScene& occluders
 {
   const std::vector<std::vector<std::int32_t>> triangles = TrianglesOfCells(scene);
   std::vector<CellPieces> cells(scene.Cells);
+  const ConvergenceRecord clock;
+  std::atomic<bool> expired{ false };
   if (options.Occlusion && !scene.Triangles.empty())
   {
     StageProgress preparing = stage;
@@ -78,7 +81,11 @@ ShadowPieces CutAlongShadows(const Scene& scene, const OcclusionScene& occluders
     cutting.Begin = preparing.End;
     ParallelFor(scene.Cells, options.Threads, cutting,
       [&](std::size_t c) {
-        if (!triangles[c].empty())
+        if (options.SecondsLeft > 0.0 && clock.Elapsed() > 0.5 * options.SecondsLeft)
+        {
+          expired = true;
+        }
+        else if (!triangles[c].empty())
         {
           cells[c] = cutter.Cut(triangles[c]);
         }
@@ -86,6 +93,7 @@ ShadowPieces CutAlongShadows(const Scene& scene, const OcclusionScene& occluders
       1e-5);
   }
   ShadowPieces pieces;
+  pieces.TimedOut = expired;
   pieces.First.push_back(0);
   std::unordered_map<std::array<double, 3>, std::int32_t, PointHash> numbers;
   for (std::size_t c = 0; c < cells.size(); ++c)

@@ -19,6 +19,7 @@ struct ShadowPieces
   std::vector<std::int32_t> Cell;     // the caller's cell of each piece, ascending
   std::vector<std::uint8_t> Whole;    // 1: the caller's cell as it was, without corners here
   std::size_t Full = 0;               // cells that reached the limit of pieces
+  bool TimedOut = false;              // no time was left for some cells: they stay whole
 
   std::size_t Size() const { return this->Cell.size(); }
 };
@@ -31,6 +32,7 @@ struct ShadowPieces
 ///   Edges   in the plane through the light and the edge that casts the shadow, to rounding
 ///   Limit   of `most` pieces a cell (before they are joined): beyond, the largest parts are cut
 ///           first and the rest stays uncut
+///   Time    after half of options.SecondsLeft (above 0) no further cell is cut
 ///   Cost    O(lines log lines) for each cell and light, one ray for each piece and light
 ShadowPieces CutAlongShadows(const Scene& scene, const OcclusionScene& occluders,
   const DirectOptions& options, bool backFaces, std::size_t most, const StageProgress& stage = {});

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Lights attached to the object or the camera, several inputs of lights, global ambient."""
 import math
+import os
+import tempfile
 
 import numpy as np
 import vtkmodules.all as vtk
 from checks import array, cell_values, close, fails, run_all, simulation
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkradiometry import vtkIrradianceFilter, vtkRadiosityFilter
+from vtkradiometry import (vtkAreaLightSource, vtkEnvironmentLightSource, vtkIrradianceFilter,
+                           vtkPhotometricFileReader, vtkRadiosityFilter)
 
 SCENE, OBJECT, CAMERA = 0, 1, 2
 
@@ -100,6 +103,79 @@ def test_light_of_the_object_moves_with_it():
     close(values(own, carried), before, 1e-9)
     Lights.add(own.GetFieldData(), "ObjectTransform", numbers)  # sixteen tuples of one
     close(values(own, carried), before, 1e-9)
+
+
+def attach(output, frame):
+    """A copy of light data, every light attached to a frame."""
+    data = output.NewInstance()
+    data.DeepCopy(output)
+    Lights.add(data.GetPointData(), "AttachedTo", np.full(data.GetNumberOfPoints(), float(frame)))
+    lights = Lights()
+    lights.data = data
+    return lights
+
+
+def test_areas_skies_and_luminaires_move_with_the_object():
+    # Floor, blocker and light carried away together: nothing changes, whatever the light.
+    panel = vtkAreaLightSource()
+    panel.SetPosition(0.3, 0.2, 1.5)
+    panel.SetDirection(0.2, -0.1, -1.0)
+    panel.SetWidth(0.8)
+    panel.SetHeight(0.3)
+    panel.SetReferenceDirection(1.0, 0.4, 0.0)
+    sky = vtkEnvironmentLightSource()
+    sky.SetPreset(vtkEnvironmentLightSource.Clear)
+    sky.SetSunPosition(0)
+    sky.SetSunDirection(0.5, 0.3, 0.6)
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "lopsided.ies")
+        with open(name, "w") as f:
+            f.write("IESNA:LM-63-2002\n[TEST] 1\n[TESTLAB] x\n[ISSUEDATE] x\n[MANUFAC] x\nTILT=NONE\n"
+                    "1 -1 1 3 5 1 2 0 0 0\n1 1 10\n0 45 90\n0 90 180 270 360\n"
+                    "900 500 100\n900 800 0\n900 200 50\n900 100 10\n900 500 100\n")
+        reader = vtkPhotometricFileReader()
+        reader.SetFileName(name)
+        reader.SetPosition(0.1, -0.2, 1.2)
+        reader.SetDirection(0.1, 0.2, -1.0)
+        reader.Update()
+        luminaire = vtk.vtkPolyData()
+        luminaire.DeepCopy(reader.GetOutputDataObject(0))
+    panel.Update()
+    sky.Update()
+    data, blocker = floor(2), floor(1, 0.6, (0.4, 0.5, 0.6))
+    t = transform(("Translate", (3, -2, 5)), ("RotateWXYZ", (50, 1, 2, 3)))
+
+    def moved(surface):
+        mover = vtk.vtkTransformPolyDataFilter()
+        mover.SetInputData(surface)
+        mover.SetTransform(t)
+        mover.SetOutputPointsPrecision(vtk.vtkAlgorithm.DOUBLE_PRECISION)
+        mover.Update()
+        return mover.GetOutput()
+
+    for light in (panel.GetOutputDataObject(0), sky.GetOutputDataObject(0), luminaire):
+        results = []
+        for here in (True, False):
+            f = simulation(vtkIrradianceFilter, data if here else moved(data),
+                           attach(light, SCENE if here else OBJECT))
+            f.AddOccludersData(blocker if here else moved(blocker))
+            if not here:
+                f.SetObjectTransform(t.GetMatrix())
+            value = cell_values(f, "Irradiance").copy()
+            error = array(f.GetOutputDataObject(0).GetCellData(), "IrradianceError").copy()
+            results.append((value, error))
+        (a, ea), (b, eb) = results
+        assert a.max() > 0.0 and a.std() > 1e-3 * a.mean()
+        assert (np.abs(a - b) <= 1e-9 * a.max() + ea + eb).all(), (a, b, ea, eb)
+        assert np.abs(a - b).max() < 0.02 * a.max()
+        # And without the transform it is another light.
+        f.SetObjectTransform([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
+        assert np.abs(cell_values(f, "Irradiance") - a).max() > 0.1 * a.max()
+    # A mirror keeps an area light's front.
+    lit = values(data, attach(panel.GetOutputDataObject(0), SCENE))
+    f = simulation(vtkIrradianceFilter, data, attach(panel.GetOutputDataObject(0), OBJECT))
+    f.SetObjectTransform(transform(("Scale", (-1, 1, 1))).GetMatrix())
+    close(cell_values(f, "Irradiance"), lit.reshape(2, 2)[:, ::-1].ravel(), 1e-6)
 
 
 def test_scale_moves_a_light_and_keeps_its_power():

@@ -240,6 +240,15 @@ def test_two_sided_composite_strips_and_limit():
     check_pieces(whole, f, 1e-5)
 
 
+def test_without_time_cells_stay_whole():
+    blocker = floor(1, 1.0, (0.1, 0.15, 1.0))
+    f = run(floor(5), lamp(), occluders=[blocker], RefineShadowBoundaries=True, TimeBudget=1e-9)
+    out = f.GetOutputDataObject(0)
+    assert out.GetNumberOfCells() == 25
+    outcome = array(out.GetFieldData(), "RadiometryOutcome")[0]
+    assert "no time was left to cut" in outcome, outcome
+
+
 def test_with_values_at_points_it_has_no_effect():
     f = simulation(vtkIrradianceFilter, floor(2), lamp(), RefineShadowBoundaries=True,
                    SampleLocation=1)
