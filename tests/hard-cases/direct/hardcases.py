@@ -313,7 +313,8 @@ def corner_above(h, a, b):
 
 def hidden(points, toward, triangles, skip=None):
     """Whether the open segments from `points` to `toward` (a place; or with shape (n, 3) places)
-    cross any triangle: Moeller and Trumbore's test in double, everything against everything.
+    cross any triangle: Moeller and Trumbore's test in double, everything against everything. What
+    lies on a triangle within rounding at the far end is not hidden by it (a lamp on a ceiling).
     `skip`: index of the triangle that each point lies on."""
     d = np.broadcast_to(toward, points.shape) - points
     blocked = np.zeros(len(points), bool)
@@ -327,7 +328,7 @@ def hidden(points, toward, triangles, skip=None):
             q = np.cross(s, e1)
             v = np.einsum("ij,ij->i", d, q) / det
             w = (q @ e2) / det
-            hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (w > 0) & (w < 1) & (det != 0)
+            hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (w > 0) & (w < 1 - 1e-9) & (det != 0)
         if skip is not None:
             hit &= skip != t
         blocked |= hit
