@@ -9,8 +9,8 @@ import argparse
 import time
 
 import numpy as np
-from hardcases import (KINDS, POINTS, Light, Run, areas_of, hidden, joined, light_data, point, polydata,
-                       sensors, spot, sun, triangles_of)
+from hardcases import (LOPSIDED, POINTS, Run, area, box, hidden, interpolant, joined, luminaire, point, polydata,
+                       sensors, sky, spot, sun, triangles_of, vector_area)
 
 DEVIATIONS = 5.0
 
@@ -38,7 +38,6 @@ def soup(rng):
                   (j + 1) * (n + 1) + i) for j in range(n) for i in range(n)]
             meshes.append((p, q))
         elif kind == 2:  # a box
-            from hardcases import box
             d = rng.uniform(0.1, 0.7, 3)
             meshes.append(box(snapped(c), snapped(c) + np.maximum(snapped(d), 0.125), 1,
                               bool(rng.integers(2))))
@@ -48,15 +47,29 @@ def soup(rng):
     return joined(*meshes)
 
 
+def lamp(rng):
+    """A light of any kind."""
+    kind = rng.integers(0, 8)
+    if kind < 5:
+        return beam(rng)
+    if kind < 7:
+        c, a, b = rng.uniform(-1, 1, (3, 3)) * [[1], [0.5], [0.5]]
+        corners = [c, c + a, c + a + b, c + b] if kind == 5 else [c, c + a, c + b]
+        return area(corners, 10.0 ** rng.uniform(-1, 1), bool(rng.integers(2)))
+    return sky(10.0 ** rng.uniform(-1, 1), int(rng.choice([0, 3])))
+
+
 def beam(rng):
     """A light that reaches a point from one direction."""
     p = rng.uniform(-1.3, 1.3, 3) if rng.random() < 0.7 else np.round(rng.uniform(-1, 1, 3) * 4) / 4
     d = rng.normal(size=3)
     d /= np.linalg.norm(d)
     intensity = 10.0 ** rng.uniform(-2, 2)
-    kind = rng.integers(0, 4)
+    kind = rng.integers(0, 5)
     if kind == 0:
         return point(p, intensity)
+    if kind == 4:
+        return luminaire(p, *LOPSIDED, intensity, d, rng.normal(size=3))
     if kind == 1:
         return spot(p, d, rng.choice([5.0, 30.0, 60.0, 90.0]), rng.choice([0.0, 1.0, 7.5]), intensity)
     if kind == 2:
@@ -66,14 +79,21 @@ def beam(rng):
     return sun(d if rng.random() < 0.7 else np.round(d) + (0, 0, 1e-30), intensity)
 
 
-def arriving(light, x, n):
-    """Irradiance at points x about n, and where it comes from, without shadows: for beams."""
+def arriving(rng, light, x, n):
+    """Irradiance at points x about n, and where it comes from, without shadows: for area lights and
+    skies from one random place of each for each point."""
     if light.kind == 2:
         d = light.arrays["Direction"] / np.linalg.norm(light.arrays["Direction"])
         return np.clip(-(n @ d), 0, None) * light.intensity[0] * np.ones(len(x)), x - 100.0 * d
+    if light.kind == 3:
+        return from_area(rng, light, x, n)
+    if light.kind == 4:
+        return from_sky(rng, light, x, n)
     to = light.position[0] - x
     r = np.linalg.norm(to, axis=1)
     e = np.clip((to * n).sum(axis=1) / r, 0, None) / r**2 * light.intensity[0]
+    if "PhotometricWeb" in light.arrays:
+        e = e * interpolant(LOPSIDED, -to, light.arrays["Direction"], light.arrays["ReferenceDirection"])
     if light.kind == 1:
         axis = light.arrays["Direction"] / np.linalg.norm(light.arrays["Direction"])
         cosine = -(to @ axis) / r
@@ -85,6 +105,31 @@ def arriving(light, x, n):
             shape = shape * np.clip(t, 0, 1) ** 2
         e = e * shape
     return e, np.broadcast_to(light.position[0], x.shape)
+
+
+def from_area(rng, light, x, n):
+    c = light.position
+    facing = vector_area(c)
+    size = np.linalg.norm(facing)
+    u, v = rng.random((2, len(x)))
+    if len(c) == 3:
+        u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
+    source = c[0] + u[:, None] * (c[1] - c[0]) + v[:, None] * (c[-1] - c[0])
+    to = source - x
+    r = np.linalg.norm(to, axis=1)
+    leaving = -(to @ (facing / size)) / r
+    leaving = np.abs(leaving) if light.arrays["LightTwoSided"] else np.clip(leaving, 0, None)
+    e = light.intensity[0] / np.pi * size * leaving * np.clip((to * n).sum(axis=1) / r, 0, None) / r**2
+    return e, source
+
+
+def from_sky(rng, light, x, n):
+    z, f = 1 - 2 * rng.random(len(x)), 2 * np.pi * rng.random(len(x))
+    s = np.sqrt(1 - z * z)
+    d = np.column_stack([s * np.cos(f), s * np.sin(f), z])
+    radiance = np.where(z >= 0, (1 + 2 * z) / 3, 0) if light.arrays["SkyModel"] == 3 else 1.0
+    e = light.intensity[0] * radiance * 4 * np.pi * np.clip((d * n).sum(axis=1), 0, None)
+    return e, x + 100.0 * d
 
 
 def stratified(rng, triangle, n):
@@ -111,7 +156,7 @@ def brute_force(rng, triangles, t, lights, n=24):
         facing[k] = (np.abs((other - a) @ normal) > 1e-12).any() and np.linalg.norm(flat) > 1e-14
     total, bare = np.zeros(len(x)), np.zeros(len(x))
     for light in lights:
-        e, source = arriving(light, x, np.broadcast_to(normal, x.shape))
+        e, source = arriving(rng, light, x, np.broadcast_to(normal, x.shape))
         bare += e
         lit = e > 0
         if lit.any():
@@ -161,7 +206,8 @@ def judge(good, words):
 def check_scene(seed):
     rng = np.random.default_rng(seed)
     p, q = soup(rng)
-    lights = [beam(rng) for _ in range(rng.integers(1, 5))]
+    any_kind = rng.random() < 0.5
+    lights = [lamp(rng) if any_kind else beam(rng) for _ in range(rng.integers(1, 5))]
     options = dict(RelativeTolerance=float(rng.choice([0.01, 1e-3, 0.1])),
                    TwoSided=bool(rng.integers(2)))
     data = polydata(p, q)
@@ -191,28 +237,41 @@ def check_scene(seed):
         if number == 0:
             check_brute_force(rng, p, q, lights, run)
         if number == 2:
-            check_sensors(p, q, places, directions, lights, run)
+            check_sensors(rng, p, q, places, directions, lights, run)
     check_both_ways(rng, data)
 
 
-def check_sensors(p, q, places, directions, lights, run):
-    """Free sensors, each ray by brute force: the value is exact."""
+def check_sensors(rng, p, q, places, directions, lights, run):
+    """Free sensors by brute force: exact where every light is a beam, else its mean."""
     triangles = triangles_of(p, q)
-    total = np.zeros(len(places))
+    beams = all(light.kind < 3 for light in lights)
+    rays = 1 if beams else 800
+    x, n = np.repeat(places, rays, axis=0), np.repeat(directions, rays, axis=0)
+    total = np.zeros(len(x))
     for light in lights:
-        e, source = arriving(light, places, directions)
-        total += e * ~hidden(places, source, triangles)
-    bad = np.abs(run.e[:, 0] - total) > run.error[:, 0] + 1e-9 * total + 1e-12
+        e, source = arriving(rng, light, x, n)
+        lit = e > 0
+        e[lit] *= ~hidden(x[lit], source[lit], triangles)
+        total += e
+    samples = total.reshape(len(places), rays)
+    mean = samples.mean(axis=1)
+    if not beams:
+        doubt = DEVIATIONS * samples.std(axis=1) / np.sqrt(rays) + 3 / rays * samples.max(axis=1)
+        difference = np.abs(run.e[:, 0] - mean)
+        judge(difference <= run.error[:, 0] + doubt + 1e-9 * mean,
+              f"sensors: {(difference - run.error[:, 0] - doubt).max()} too far")
+        return
+    bad = np.abs(run.e[:, 0] - mean) > run.error[:, 0] + 1e-9 * mean + 1e-12
     # A ray within rounding of an edge, or a place on a surface, may fall either way.
     assert bad.sum() == 0 or near_an_edge(places[bad], lights, triangles), (
-        run.e[bad, 0], total[bad])
+        run.e[bad, 0], mean[bad])
 
 
 def near_an_edge(places, lights, triangles):
     """True when moving each place by 1e-9 any way changes what brute force says."""
     for place in places:
         around = place + 1e-9 * np.vstack([np.eye(3), -np.eye(3), np.zeros((1, 3))])
-        seen = [tuple(hidden(around, arriving(x, around, np.ones_like(around))[1], triangles))
+        seen = [tuple(hidden(around, arriving(None, x, around, np.ones_like(around))[1], triangles))
                 for x in lights]
         if all(len(set(s)) == 1 for s in seen):
             return False

@@ -110,17 +110,23 @@ class Light:
         self.position = np.atleast_2d(np.asarray(position, float))  # area lights: corners
         self.intensity = np.atleast_1d(np.asarray(intensity, float))
         self.arrays = arrays
+        self.field = {}  # field arrays of a web or a map, "<k>" in their names for its number
 
     def moved(self, turn=np.eye(3), scale=1.0, shift=(0, 0, 0)):
         arrays = dict(self.arrays)
         for name in ("Direction", "ReferenceDirection", "SunDirection"):
             if name in arrays:
                 arrays[name] = turn @ np.asarray(arrays[name], float)
-        return Light(self.kind, scale * self.position @ turn.T + np.asarray(shift, float),
-                     self.intensity, **arrays)
+        return self.like(scale * self.position @ turn.T + np.asarray(shift, float),
+                         self.intensity, arrays)
 
     def times(self, factor):
-        return Light(self.kind, self.position, factor * self.intensity, **self.arrays)
+        return self.like(self.position, factor * self.intensity, self.arrays)
+
+    def like(self, position, intensity, arrays):
+        other = Light(self.kind, position, intensity, **arrays)
+        other.field = self.field
+        return other
 
 
 def point(position, intensity=1.0, **arrays):
@@ -136,6 +142,39 @@ def sun(direction, irradiance=1.0, **arrays):
     return Light(2, (0, 0, 0), irradiance, Direction=np.asarray(direction, float), **arrays)
 
 
+def area(corners, exitance=1.0, two_sided=False, **arrays):
+    return Light(3, corners, exitance, LightTwoSided=int(two_sided), **arrays)
+
+
+def luminaire(position, horizontal, vertical, values, intensity=1.0, axis=(0, 0, -1),
+              reference=(1, 0, 0)):
+    """A light with a type C web: `values` are planes x vertical angles."""
+    light = Light(0, position, intensity, Direction=np.asarray(axis, float),
+                  ReferenceDirection=np.asarray(reference, float), PhotometricWeb=0)
+    light.field = {"PhotometricWeb<k>": np.asarray(values, float).ravel(),
+                   "PhotometricWeb<k>Horizontal": np.asarray(horizontal, float),
+                   "PhotometricWeb<k>Vertical": np.asarray(vertical, float)}
+    return light
+
+
+def sky(radiance=1.0, model=0, down=(0, 0, -1), north=(0, 1, 0), pixels=None, **arrays):
+    """An environment; `pixels`: rows x columns of a map."""
+    light = Light(4, (0, 0, 0), radiance, Direction=np.asarray(down, float),
+                  ReferenceDirection=np.asarray(north, float), SkyModel=model, **arrays)
+    if pixels is not None:
+        pixels = np.asarray(pixels, float)
+        light.arrays["EnvironmentMap"] = 0
+        light.field = {"EnvironmentMap<k>": pixels.reshape(pixels.shape[0] * pixels.shape[1], -1),
+                       "EnvironmentMap<k>Size": np.array(pixels.shape[1::-1], np.int32)}
+    return light
+
+
+# Planes C = 0 to 315, gamma 0 to 180: lopsided, dark above.
+LOPSIDED = (np.arange(0.0, 360.0, 45.0), np.arange(0.0, 181.0, 15.0),
+            [[(2 + np.cos(np.radians(c))) * max(0.0, 1 - g / 120) for g in np.arange(0, 181, 15)]
+             for c in np.arange(0, 360, 45)])
+
+
 # One light of each kind, for cases that ask the same of all: over and beside the scene of `room`.
 KINDS = {
     "point": lambda: point((0.31, 0.22, 1.71), 5.0),
@@ -144,9 +183,16 @@ KINDS = {
                                 SpotInnerCutoff=20.0),
     "sun": lambda: sun((0.3, -0.2, -0.9), 3.0),
     "legacy": lambda: point((0.31, 0.22, 1.71), 5.0, Attenuation=(1.0, 0.5, 0.25)),
+    "web": lambda: luminaire((0.31, 0.22, 1.71), *LOPSIDED, 6.0, (0.2, -0.1, -1), (0.3, 1, 0.2)),
+    "area": lambda: area([(0.1, 0.1, 1.9), (0.1, 0.6, 1.9), (0.7, 0.6, 1.8), (0.7, 0.1, 1.8)], 8.0),
+    "two-sided area": lambda: area([(-0.6, 0.2, 1.2), (0.0, 0.3, 1.5), (-0.2, 0.9, 1.3)], 6.0, True),
+    "concave area": lambda: area([(0, 0, 1.9), (0.5, 1.0, 1.9), (1, 0, 1.9), (0.5, 0.3, 1.9)], 5.0),
+    "uniform sky": lambda: sky(2.0),
+    "overcast sky": lambda: sky(3.0, 3),
 }
 # E(s x) = s^p E(x) when the scene is scaled by s and the intensities stay.
-SCALE_POWER = {"point": -2, "spot": -2, "smooth spot": -2, "sun": 0}
+SCALE_POWER = {"point": -2, "spot": -2, "smooth spot": -2, "sun": 0, "web": -2, "area": 0,
+               "two-sided area": 0, "concave area": 0, "uniform sky": 0, "overcast sky": 0}
 
 
 def room():
@@ -165,12 +211,14 @@ def room():
                   grid((0.1, -1.2, 1.0), (0.9, 0.1, 0), (0, 0.8, 0.2)), (ball, quads))
 
 
+SAMPLED = ("area", "two-sided area", "concave area", "uniform sky", "overcast sky")
+
 DEFAULTS = {"Direction": (0.0, 0.0, -1.0), "SpotCutoff": 180.0, "SpotExponent": 0.0,
             "SpotInnerCutoff": -1.0, "Attenuation": (0.0, 0.0, 1.0), "LightEnabled": 1,
             "AttachedTo": 0, "PhotometricWeb": -1, "LightTwoSided": 0,
             "ReferenceDirection": (1.0, 0.0, 0.0), "SkyModel": 0,
             "SkyCoefficients": (0.0, 0.0, 0.0, 0.0, 0.0), "SunDirection": (0.0, 0.0, 1.0),
-            "EnvironmentMap": -1}
+            "EnvironmentMap": -1, "GroundRadiance": 0.0}
 INTEGERS = ("LightEnabled", "AttachedTo", "PhotometricWeb", "LightTwoSided", "SkyModel",
             "EnvironmentMap")
 
@@ -198,8 +246,20 @@ def light_data(*lights, field=None):
         values = column(lambda x: np.asarray(x.arrays.get(name, DEFAULTS[name]), float))
         arrays[name] = values.astype(np.int32) if name in INTEGERS else values
     with_points(data, **arrays)
-    if field:
-        _with(data.GetFieldData(), data, field)
+    webs, fields = 0, dict(field or {})
+    for x in [x for x in lights if x.field]:
+        number = "PhotometricWeb" if "PhotometricWeb" in x.arrays else "EnvironmentMap"
+        for name, values in x.field.items():
+            fields[name.replace("<k>", str(webs))] = values
+        x.arrays[number] = webs
+        webs += 1
+    if webs:
+        for number in ("PhotometricWeb", "EnvironmentMap"):
+            if number in arrays:
+                with_points(data, **{number: column(
+                    lambda x: x.arrays.get(number, -1)).astype(np.int32)})
+    if fields:
+        _with(data.GetFieldData(), data, fields)
     return data
 
 
@@ -333,6 +393,27 @@ def hidden(points, toward, triangles, skip=None):
             hit &= skip != t
         blocked |= hit
     return blocked
+
+
+def interpolant(web, directions, axis, reference):
+    """Relative intensity of a type C web toward directions: gamma from the axis, C from the reference."""
+    horizontal, vertical, values = (np.asarray(v, float) for v in web)
+    down = np.asarray(axis, float) / np.linalg.norm(axis)
+    x = np.asarray(reference, float) - np.dot(reference, down) * down
+    x /= np.linalg.norm(x)
+    y = np.cross(-down, x)
+    d = directions / np.linalg.norm(directions, axis=1)[:, None]
+    gamma = np.degrees(np.arctan2(np.linalg.norm(np.cross(d, down), axis=1), d @ down))
+    values = values / values.max()
+    if len(horizontal) == 1:
+        return np.interp(gamma, vertical, values[0])
+    c = np.degrees(np.arctan2(d @ y, d @ x)) % 360.0
+    around = np.append(horizontal, horizontal[0] + 360.0)
+    k = np.clip(np.searchsorted(around, c, side="right") - 1, 0, len(horizontal) - 1)
+    t = (c - around[k]) / (around[k + 1] - around[k])
+    planes = np.array([np.interp(gamma, vertical, v) for v in np.vstack([values, values[:1]])])
+    i = np.arange(len(c))
+    return (1 - t) * planes[k, i] + t * planes[k + 1, i]
 
 
 def run_all(namespace):
