@@ -216,9 +216,14 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
       std::uint8_t& known = proved[i * skies.size() + s];
       if (first && hides)
       {
-        const Vec3& up = skies[s]->Frame().Up;
-        known = sides->Open(receiver.Corners.data(), receiver.Count, receiver.Normal,
-                  skies[s]->DarkBelow() ? &up : nullptr)
+        const Vec3* up = skies[s]->DarkBelow() ? &skies[s]->Frame().Up : nullptr;
+        const auto clear = [&](const Vec3* places, int count) {
+          return sides->Open(places, count, receiver.Normal, up);
+        };
+        // A vertex lies on its neighbours: what counts is where its rays start, a little inside.
+        const auto clearStart = [&](const PointStart& start) { return clear(&start.End.Point, 1); };
+        known = clear(receiver.Corners.data(), receiver.Count) &&
+            std::all_of(receiver.Starts.begin(), receiver.Starts.end(), clearStart)
           ? 1
           : 0;
       }
