@@ -19,9 +19,10 @@ def surface():
 
 def ways():
     """Cells, points of the surface, sensors."""
-    yield lambda *lights, **o: Run(surface(), list(lights), **o)
-    yield lambda *lights, **o: Run(surface(), list(lights), SampleLocation=POINTS, **o)
-    yield lambda *lights, **o: Run(sensors(PLACES, (0, 0, 1)), list(lights), surface(), **o)
+    rough = dict(RelativeTolerance=0.1)
+    yield lambda *lights: Run(surface(), list(lights), **rough)
+    yield lambda *lights: Run(surface(), list(lights), SampleLocation=POINTS, **rough)
+    yield lambda *lights: Run(sensors(PLACES, (0, 0, 1)), list(lights), surface(), **rough)
 
 
 def refused(lights, *words):

@@ -22,15 +22,19 @@ def same(run, reference, factor=1.0, sampled=False):
     if sampled:
         allowed = allowed + np.hypot(run.error / factor, reference.error)
     assert run.e.shape == reference.e.shape
-    bad = ~(np.abs(run.e / factor - reference.e) <= allowed)
-    assert not bad.any(), (run.e[bad] / factor, reference.e[bad], allowed[bad])
+    difference = np.abs(run.e / factor - reference.e)
+    bad = ~(difference <= allowed)
+    if sampled:  # error bars hold for 95 % of values, and are not far off for the others
+        assert bad.mean() <= 0.05 and (difference <= 3 * allowed).all(), (bad.sum(), difference[bad])
+    else:
+        assert not bad.any(), (run.e[bad] / factor, reference.e[bad], allowed[bad])
 
 
 def everywhere(check, kinds=KINDS):
     for name in kinds:
         for location in (0, POINTS):
             check(name, dict(SampleLocation=location,
-                             RelativeTolerance=0.05 if name in SAMPLED else 1e-4))
+                             RelativeTolerance=0.1 if name in SAMPLED else 1e-4))
 
 
 def test_scaled_by_a_millionth_and_a_billion():
