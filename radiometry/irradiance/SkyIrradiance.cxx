@@ -2,6 +2,7 @@
 #include "radiometry/irradiance/SkyIrradiance.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/ClosedSurfaces.h"
 #include "radiometry/irradiance/OpenSides.h"
 #include "radiometry/irradiance/SkyTable.h"
 #include "radiometry/irradiance/VisibleSky.h"
@@ -190,6 +191,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
   std::vector<std::uint8_t> proved(receivers.size() * skies.size(), 0);
   std::vector<double> unshadowed(receivers.size(), 0.0);
   std::vector<double> weights(receivers.size());
+  std::vector<std::uint8_t> dark(receivers.size(), 0); // every ray was blocked
   std::atomic<std::int64_t> rays{ 0 };
   std::atomic<bool> expired{ false };
 
@@ -247,6 +249,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
         all[b] += e[b];
       }
     }
+    dark[i] = sampled && hidden ? 1 : 0;
     unshadowed[i] = *std::max_element(all.begin(), all.end());
     double excess = 0.0;
     for (std::size_t b = 0; b < bands; ++b)
@@ -295,6 +298,19 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
       },
       1e-4);
     done = next;
+    if (round == 0 && !panes && std::any_of(dark.begin(), dark.end(), [](auto d) { return d != 0; }))
+    {
+      // Inside closed surfaces what the rays say is certain.
+      const ClosedSurfaces closed(scene);
+      for (std::size_t i = 0; i < receivers.size(); ++i)
+      {
+        if (dark[i] && closed.Encloses(receivers[i]))
+        {
+          std::copy_n(&beforeError[i * bands], bands, &result.Error[i * bands]);
+          target[i] = 0;
+        }
+      }
+    }
     todo.erase(
       std::remove_if(todo.begin(), todo.end(), [&](std::size_t i) { return target[i] == 0; }),
       todo.end());
