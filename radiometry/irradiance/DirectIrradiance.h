@@ -17,6 +17,8 @@ struct DirectOptions
 {
   double RelativeTolerance = 0.01; // of each value's error, relative to the value
   double AbsoluteTolerance = 0.0;  // W/m^2; whichever of the two is met first
+  double MeanShare = 0.0; // a value below that share of the mean over all receivers may be wrong by
+                          // the relative tolerance of that (light that rays sample)
   double SecondsLeft = 0.0;        // after that many seconds nothing more is looked at for shadows:
                                    // half of the light is taken, with an error of half; 0: no limit
   bool Occlusion = true;

@@ -187,7 +187,9 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
   const std::vector<double> beforeError = result.Error;
   const std::int64_t raysBefore = result.Rays;
   const int most = MostSamples(options.RelativeTolerance);
-  std::vector<int> target(receivers.size(), FirstSamples); // 0: done
+  std::vector<int> target(receivers.size(), FirstSamples); // rays of the next round; 0: done
+  std::vector<int> spent(receivers.size(), 0);             // rays of the last
+  std::vector<double> own(result.Error.size(), 0.0);       // error of the sky's part
   std::vector<std::uint8_t> proved(receivers.size() * skies.size(), 0);
   std::vector<double> unshadowed(receivers.size(), 0.0);
   std::vector<double> weights(receivers.size());
@@ -200,7 +202,6 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
     Prepare(scene, occluders, options, receivers[i], receiver);
     weights[i] = WeightOf(receivers[i]);
     const int samples = target[i];
-    target[i] = 0;
     static thread_local std::vector<double> value, error;
     value.assign(bands, 0.0);
     error.assign(bands, 0.0);
@@ -251,31 +252,53 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
     }
     dark[i] = sampled && hidden ? 1 : 0;
     unshadowed[i] = *std::max_element(all.begin(), all.end());
-    double excess = 0.0;
     for (std::size_t b = 0; b < bands; ++b)
     {
       const std::size_t at = i * bands + b;
       result.Irradiance[at] = before[at] + value[b];
       result.Error[at] = std::hypot(beforeError[at], error[b]);
-      const double allowed =
-        std::max(options.RelativeTolerance * result.Irradiance[at], options.AbsoluteTolerance);
-      if (error[b] > allowed)
-      {
-        excess = std::max(excess, allowed > 0.0 ? error[b] / allowed : 1e9);
-      }
+      own[at] = error[b];
     }
-    const int limit = hidden ? std::min(most, DarkSamples) : most;
-    if (sampled && excess > 1.0 && samples < limit)
+    spent[i] = sampled ? samples : 0;
+  };
+  // The rays of a receiver's next round; 0: it is good enough, or as good as can be.
+  const auto more = [&](std::size_t i, double mean) {
+    double excess = 0.0;
+    for (std::size_t at = i * bands; at < (i + 1) * bands; ++at)
     {
-      // Errors fall with about the power 5/8 of the rays.
-      const double wanted = 1.2 * samples * std::pow(excess, 1.6);
-      int next = 2 * samples;
-      while (next < limit && next < wanted && next < 32 * samples)
+      const double value = std::max(result.Irradiance[at], options.MeanShare * mean);
+      const double allowed = std::max(options.RelativeTolerance * value, options.AbsoluteTolerance);
+      if (own[at] > allowed)
       {
-        next *= 2;
+        excess = std::max(excess, allowed > 0.0 ? own[at] / allowed : 1e9);
       }
-      target[i] = std::min(next, limit);
     }
+    const int limit = dark[i] ? std::min(most, DarkSamples) : most;
+    if (spent[i] == 0 || excess <= 1.0 || spent[i] >= limit)
+    {
+      return 0;
+    }
+    // Errors fall with about the power 5/8 of the rays.
+    const double wanted = 1.2 * spent[i] * std::pow(excess, 1.6);
+    int next = 2 * spent[i];
+    while (next < limit && next < wanted && next < 32 * spent[i])
+    {
+      next *= 2;
+    }
+    return std::min(next, limit);
+  };
+  const auto meanValue = [&] {
+    double sum = 0.0;
+    double weight = 0.0;
+    for (std::size_t i = 0; i < receivers.size(); ++i)
+    {
+      weight += weights[i];
+      for (std::size_t b = 0; b < bands; ++b)
+      {
+        sum += weights[i] * result.Irradiance[i * bands + b] / static_cast<double>(bands);
+      }
+    }
+    return weight > 0.0 ? sum / weight : 0.0;
   };
 
   std::vector<std::size_t> todo(receivers.size());
@@ -298,6 +321,11 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
       },
       1e-4);
     done = next;
+    const double mean = options.MeanShare > 0.0 ? meanValue() : 0.0;
+    for (const std::size_t i : todo)
+    {
+      target[i] = more(i, mean);
+    }
     if (round == 0 && !panes && std::any_of(dark.begin(), dark.end(), [](auto d) { return d != 0; }))
     {
       // Inside closed surfaces what the rays say is certain.

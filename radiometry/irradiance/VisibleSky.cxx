@@ -23,8 +23,8 @@ double Unseen(double rays)
   return 2.0 / rays * std::min(1.0, std::pow(512.0 / rays, 0.25));
 }
 
-/// Share of the rays that go everywhere alike once the pilot knows better.
-constexpr double Everywhere = 0.5;
+/// Least share of the rays that go everywhere alike once the pilot knows better.
+constexpr double LeastEverywhere = 0.5;
 constexpr int MostPilot = 4096;
 
 /// A map of the unit square onto itself that sends more points where a density on a grid of 2^levels
@@ -163,7 +163,7 @@ struct Guess
   int Levels = 0;
   std::vector<double> Visible; // squares x layers
   std::vector<double> Density;
-  bool Even = true; // nothing begins or ends anywhere
+  double Everywhere = 1.0; // share of the rays that go everywhere alike
 
   void Find(int levels, const SobolSequence& sequence, Look& look)
   {
@@ -202,12 +202,13 @@ struct Guess
         count += differs ? 1 : 0;
       }
     }
-    this->Even = count == 0;
-    this->Density.assign(active.size(), 1.0);
+    // The more there is to look at, the less can be said of the rest.
+    const double share = count / static_cast<double>(active.size());
+    this->Everywhere = count == 0 ? 1.0 : std::max(LeastEverywhere, share);
+    this->Density.assign(active.size(), this->Everywhere);
     for (std::size_t k = 0; k < active.size() && count > 0; ++k)
     {
-      this->Density[k] = Everywhere +
-        (active[k] ? (1.0 - Everywhere) * static_cast<double>(active.size()) / count : 0.0);
+      this->Density[k] += active[k] ? (1.0 - this->Everywhere) / share : 0.0;
     }
   }
 };
@@ -298,7 +299,7 @@ void FindVisibleShare(const OcclusionScene& occluders, const SkyTable& table,
       }
     }
   }
-  const double rays = squares + (guess.Even ? 1.0 : Everywhere) * samples;
+  const double rays = squares + guess.Everywhere * samples;
   for (std::size_t b = 0; b < layers; ++b)
   {
     double value = 0.0;

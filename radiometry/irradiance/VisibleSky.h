@@ -33,7 +33,7 @@ struct VisibleShare
 };
 
 /// Estimates it by rays: a pilot run of `samples`/4 finds out in which directions something begins
-/// or ends, and half of `samples` goes there, in proportion; the rest everywhere.
+/// or ends, and up to half of `samples` goes there; the rest everywhere.
 ///   Model   v = sum_k c_k/S + mean of w (V - c), c_k the pilot's guess in each of S equal parts of
 ///           the light and w the weight of the sample: without bias whatever the guess, without
 ///           noise where it is right

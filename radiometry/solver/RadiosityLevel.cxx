@@ -55,6 +55,8 @@ DirectOptions RadiosityContext::Direct(double secondsLeft) const
   DirectOptions o;
   o.RelativeTolerance = 0.5 * this->Options.RelativeTolerance;
   o.AbsoluteTolerance = 0.5 * this->Options.AbsoluteTolerance;
+  // What is reflected comes on top, and reaches dim places too.
+  o.MeanShare = this->Options.Interreflection ? 0.25 : 0.0;
   o.SecondsLeft = this->Options.TimeBudget > 0.0 ? std::max(1e-3, 0.5 * secondsLeft) : 0.0;
   o.Occlusion = this->Options.Occlusion;
   o.SpotShape = this->Options.SpotShape;
