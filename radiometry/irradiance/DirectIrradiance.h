@@ -35,9 +35,11 @@ struct DirectResult
   int Bands = 1;
   std::vector<double> Irradiance; // patches (points) x bands, W/m^2
   std::vector<double> Error;      // the same shape
-  std::vector<float> Dropped;     // of each patch, the bound on lights left out of it; empty: none
-  double DroppedPeak = 0.0;       // greatest bound on lights left out of a value: part of its Error
-  double DroppedMean = 0.0;       // the mean of those bounds, W/m^2
+  /// Of each patch, what of its Error is a bound on lights left out, or that of lights estimated
+  /// together from samples: errors that neighbours have in common; empty: none.
+  std::vector<float> Dropped;
+  double DroppedPeak = 0.0;       // the greatest of those
+  double DroppedMean = 0.0;       // their mean, W/m^2
   double PeakUnshadowed = 0.0;    // greatest value, were nothing in the way, of any band
   std::int64_t Rays = 0;
   bool TimedOut = false;

@@ -235,7 +235,9 @@ bool LightSum::Sample(ReceiverBlock& block, const ReceiverBounds& bounds,
   {
     return true;
   }
-  std::size_t samples = std::max(LeastSamples, asked);
+  // In haste as many as were asked one by one.
+  std::size_t samples =
+    last && asked < LeastSamples ? std::max<std::size_t>(Sets, asked) : std::max(LeastSamples, asked);
   if (!last && 4 * samples > left)
   {
     return false; // not worth it: as well ask them all
@@ -384,6 +386,7 @@ double LightSum::TakeEstimates(const LightEffort& effort, std::size_t drawn, boo
       continue;
     }
     this->Active[i] = 0;
+    this->Dropped[i] += *std::max_element(error.begin(), error.end());
     for (std::size_t b = 0; b < this->Bands; ++b)
     {
       const std::size_t at = i * this->Bands + b;

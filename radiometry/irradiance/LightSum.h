@@ -69,7 +69,9 @@ public:
   // Results, receivers x bands, W/m^2.
   std::vector<double> Value;
   std::vector<double> Error;
-  std::vector<double> Dropped; // what of the error is bounds on lights left out, receivers
+  /// Of each receiver: what of its error it has in common with its neighbours, namely bounds on
+  /// lights left out, and errors of those estimated from samples.
+  std::vector<double> Dropped;
   std::vector<std::uint8_t> Uncertain; // receivers whose error more effort can make smaller
   double PeakUnshadowed = 0.0; // greatest of any receiver and band, nothing in the way
   bool Sampled = false;        // of some receiver the rest was estimated
