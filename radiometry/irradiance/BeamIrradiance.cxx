@@ -154,7 +154,7 @@ private:
   {
     constexpr std::size_t many = 32;
     return this->Lights.Size() > many &&
-      Length(box.Size()) > this->Lights.Tree.Nearest(box.Center());
+      Length(box.Size()) > 2.0 * this->Lights.Tree.Nearest(box.Center());
   }
 
   bool Compute(std::size_t cluster, const std::uint32_t* ids, const std::uint32_t* end,
@@ -163,7 +163,7 @@ private:
     Worker& worker = *this->Blocks.local();
     PatchBlock& block = worker.Block;
     block.Load(ids, end);
-    constexpr std::ptrdiff_t few = 4;
+    constexpr std::ptrdiff_t few = 16;
     if (end - ids > few && this->TooWide(block.Bounds().Box))
     {
       const std::uint32_t* middle = ids + (end - ids) / 2;
