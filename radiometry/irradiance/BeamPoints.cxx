@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/BeamIrradiance.h"
 
+#include "radiometry/geometry/Sampling.h"
 #include "radiometry/irradiance/BeamLights.h"
+#include "radiometry/irradiance/LightSum.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
+#include <memory>
+#include <numeric>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
 
 namespace radiometry
 {
@@ -96,59 +103,311 @@ void See(const Scene& scene, const SourceFlux& source, const ShadowCutter& cutte
   }
 }
 
+/// Neighbouring points under one light after the other.
+class PointBlock : public ReceiverBlock
+{
+public:
+  static constexpr std::size_t Most = 32;
+
+  PointBlock(const Scene& scene, const OcclusionScene& occluders, const BeamLights& lights,
+    const std::vector<SurfacePoint>& points, const DirectOptions& options, double extent)
+    : Geometry(scene)
+    , Occluders(occluders)
+    , Lights(lights)
+    , Points(points)
+    , Shadows(options.Occlusion && !scene.Triangles.empty())
+    , Extent(extent)
+    , Bands(static_cast<std::size_t>(scene.Optics.Bands))
+    , Transmits(lights.Size() > 0 && lights.Cutters[0]->Transmits())
+    , Seen(this->Bands)
+  {
+  }
+
+  void Load(const std::uint32_t* begin, const std::uint32_t* end)
+  {
+    this->Ids = begin;
+    this->Count = static_cast<std::size_t>(end - begin);
+    this->Around = {};
+    this->Around.Greatest = std::numeric_limits<double>::infinity();
+    Vec3 sum;
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      const SurfacePoint& p = this->Points[begin[i]];
+      this->Around.Box.Add(p.Point);
+      sum += p.Normal;
+      this->From[i] = { p.Point, p.Triangle };
+      if (p.Triangle < 0 && this->Shadows)
+      {
+        this->From[i].Triangle =
+          this->Occluders.Touching(this->From[i].Point, p.Normal, p.Rounding);
+        this->From[i].Close =
+          this->From[i].Triangle < 0 && this->Occluders.TooClose(this->From[i].Point);
+      }
+    }
+    const double length = Length(sum);
+    this->Around.Normal = length > 0.0 ? sum / length : Vec3{ 0.0, 0.0, 1.0 };
+    this->Around.CosSpread = length > 0.0 ? 1.0 : -1.0;
+    for (std::size_t i = 0; i < this->Count && length > 0.0; ++i)
+    {
+      this->Around.CosSpread = std::min(this->Around.CosSpread,
+        Dot(this->Around.Normal, this->Points[begin[i]].Normal) - 1e-15);
+    }
+  }
+  std::size_t Size() const { return this->Count; }
+  const ReceiverBounds& Bounds() const { return this->Around; }
+
+  std::int64_t Ask(std::size_t light, const std::uint8_t* active, const double*,
+    LightShare* shares) override
+  {
+    const SourceFlux& source = *this->Lights.Sources[light];
+    const ShadowCutter& cutter = *this->Lights.Cutters[light];
+    std::int64_t rays = 0;
+    this->Tint.assign(this->Transmits ? this->Count * this->Bands : 0, 1.0);
+    this->Starts.clear();
+    this->StartOf.clear();
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      this->Asked[i] = this->Lit[i] = 0;
+      const SurfacePoint& p = this->Points[this->Ids[i]];
+      const double e = active[i] != 0 ? source.AtPoint(p.Point, p.Normal) : 0.0;
+      if (!(e > 0.0) || InPlane(source, p, this->Extent))
+      {
+        continue;
+      }
+      shares[i].Open = shares[i].Lit = e;
+      if (this->Shadows && this->Transmits)
+      {
+        See(this->Geometry, source, cutter, p, this->From[i], this->Seen);
+        rays += this->Seen.Rays;
+        this->Tinted(i, e, shares[i]);
+      }
+      else if (this->Shadows)
+      {
+        this->AddStarts(source, p, i);
+      }
+    }
+    rays += this->Trace(cutter);
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      LightShare& share = shares[i];
+      if (share.Open > 0.0 && this->Shadows && !this->Transmits)
+      {
+        const bool edge = this->Lit[i] > 0 && this->Lit[i] < this->Asked[i];
+        share.Lit *= this->Asked[i] > 0 ? static_cast<double>(this->Lit[i]) / this->Asked[i] : 0.0;
+        // A shadow's edge runs through the vertex.
+        share.Systematic += edge ? 0.5 * share.Open : 0.0;
+      }
+      share.Systematic += 16.0 * Epsilon * share.Lit;
+    }
+    return rays;
+  }
+  const double* Tints() const override { return this->Tint.empty() ? nullptr : this->Tint.data(); }
+
+private:
+  void Tinted(std::size_t i, double e, LightShare& share)
+  {
+    const std::vector<double>& seen = this->Seen.Share;
+    const double most = *std::max_element(seen.begin(), seen.end());
+    share.Lit = this->Seen.Rays > 0 ? e * most : 0.0;
+    share.Systematic += e * this->Seen.Doubt;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      this->Tint[i * this->Bands + b] = most > 0.0 ? seen[b] / most : 1.0;
+    }
+  }
+  /// The point itself, or a place just inside each face of its sheet that faces the light.
+  void AddStarts(const SourceFlux& source, const SurfacePoint& p, std::size_t i)
+  {
+    const auto add = [&](const RayEnd& from) {
+      ++this->Asked[i];
+      this->Starts.push_back(from);
+      this->StartOf.push_back(static_cast<std::uint8_t>(i));
+    };
+    if (p.Around.empty())
+    {
+      add(this->From[i]);
+      return;
+    }
+    for (const std::int32_t t : p.Around)
+    {
+      const Triangle3 around = this->Geometry.TriangleAt(t);
+      const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
+      const Vec3 n = AreaNormal2(around);
+      if (source.InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
+      {
+        add({ start, t });
+      }
+    }
+  }
+  std::int64_t Trace(const ShadowCutter& cutter)
+  {
+    if (this->Starts.empty())
+    {
+      return 0;
+    }
+    cutter.Hidden(this->Starts, this->Hidden);
+    for (std::size_t s = 0; s < this->Starts.size(); ++s)
+    {
+      this->Lit[this->StartOf[s]] += this->Hidden[s] != 0 ? 0 : 1;
+    }
+    return static_cast<std::int64_t>(this->Starts.size());
+  }
+
+  const Scene& Geometry;
+  const OcclusionScene& Occluders;
+  const BeamLights& Lights;
+  const std::vector<SurfacePoint>& Points;
+  const bool Shadows;
+  const double Extent;
+  const std::size_t Bands;
+  const bool Transmits;
+  Sight Seen;
+  std::size_t Count = 0;
+  const std::uint32_t* Ids = nullptr;
+  ReceiverBounds Around;
+  std::array<RayEnd, Most> From;
+  std::array<int, Most> Asked;
+  std::array<int, Most> Lit;
+  std::vector<RayEnd> Starts;
+  std::vector<std::uint8_t> StartOf;
+  std::vector<std::uint8_t> Hidden;
+  std::vector<double> Tint;
+};
+
+/// The points in the order of a curve that fills space: runs of them are neighbours.
+std::vector<std::uint32_t> SpatialOrder(const std::vector<SurfacePoint>& points)
+{
+  Box3 box;
+  for (const SurfacePoint& p : points)
+  {
+    box.Add(p.Point);
+  }
+  const Vec3 size = box.Size();
+  const double longest = std::max({ size.x, size.y, size.z });
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    std::uint64_t key = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double place =
+        longest > 0.0 ? (points[i].Point[a] - box.Min[a]) / longest * 1048575.0 : 0.0;
+      auto digits = static_cast<std::uint64_t>(std::clamp(place, 0.0, 1048575.0));
+      for (int bit = 0; bit < 20; ++bit, digits >>= 1)
+      {
+        key |= (digits & 1) << (3 * bit + a);
+      }
+    }
+    keys[i] = { key, static_cast<std::uint32_t>(i) };
+  }
+  tbb::parallel_sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(points.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& k) { return k.second; });
+  return order;
+}
+
+/// What a thread works with.
+struct Worker
+{
+  Worker(const Scene& scene, const OcclusionScene& occluders, const BeamLights& lights,
+    const std::vector<SurfacePoint>& points, const DirectOptions& options, double extent)
+    : Block(scene, occluders, lights, points, options, extent)
+    , Sum(lights.Tree, scene.Optics.Bands)
+  {
+  }
+  PointBlock Block;
+  LightSum Sum;
+};
+
 } // namespace
 
 void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<SurfacePoint>& points, const DirectOptions& options,
   const StageProgress& stage, ConvergenceRecord* record, DirectResult& result)
 {
-  const int bands = result.Bands;
+  const ConvergenceRecord clock;
+  const auto bands = static_cast<std::size_t>(result.Bands);
+  // No outlines: a point needs one ray a light.
   const BeamLights lights(scene, occluders, options, false, {});
   if (lights.Size() == 0 || points.empty())
   {
     return;
   }
-  const double extent = Extent(scene);
+  const std::vector<std::uint32_t> order = SpatialOrder(points);
+  const std::size_t blocks = (points.size() + PointBlock::Most - 1) / PointBlock::Most;
+  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers(
+    [&, extent = Extent(scene)] {
+      return std::make_unique<Worker>(scene, occluders, lights, points, options, extent);
+    });
   std::atomic<std::int64_t> rays{ 0 };
-  std::vector<double> unshadowed(points.size(), 0.0);
-  ParallelFor(
-    points.size(), options.Threads, stage,
-    [&](std::size_t i) {
-      const SurfacePoint& p = points[i];
-      Sight sight(static_cast<std::size_t>(bands));
-      RayEnd from{ p.Point, p.Triangle };
-      if (p.Triangle < 0 && options.Occlusion)
+  std::atomic<bool> expired{ false };
+  std::vector<double> peaks(blocks, 0.0);
+  std::vector<double> dropped(blocks, 0.0);
+  const auto compute = [&](std::size_t k, std::size_t most) {
+    Worker& worker = *workers.local();
+    const std::uint32_t* ids = order.data() + k * PointBlock::Most;
+    const std::size_t count = std::min(PointBlock::Most, points.size() - k * PointBlock::Most);
+    worker.Block.Load(ids, ids + count);
+    LightEffort effort;
+    effort.Lights = most;
+    effort.FirstLook = std::min<std::size_t>(effort.FirstLook, most);
+    effort.RelativeTolerance = options.RelativeTolerance;
+    effort.AbsoluteTolerance = options.AbsoluteTolerance;
+    static constexpr std::array<std::uint8_t, PointBlock::Most> all = [] {
+      std::array<std::uint8_t, PointBlock::Most> a{};
+      for (auto& one : a)
       {
-        from.Triangle = occluders.Touching(from.Point, p.Normal, p.Rounding);
-        from.Close = from.Triangle < 0 && occluders.TooClose(from.Point);
+        one = 1;
       }
-      for (std::size_t k = 0; k < lights.Size(); ++k)
-      {
-        const Light& light = lights.Sources[k]->GetLight();
-        const double e = lights.Sources[k]->AtPoint(p.Point, p.Normal);
-        if (!(e > 0.0) || InPlane(*lights.Sources[k], p, extent))
+      return a;
+    }();
+    LightSum& sum = worker.Sum;
+    rays += sum.Compute(worker.Block, worker.Block.Bounds(), count, all.data(), effort,
+      Hash64(ids[0], most));
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      std::copy_n(&sum.Value[i * bands], bands, &result.Irradiance[ids[i] * bands]);
+      std::copy_n(&sum.Error[i * bands], bands, &result.Error[ids[i] * bands]);
+    }
+    peaks[k] = std::max(peaks[k], sum.PeakUnshadowed);
+    dropped[k] = *std::max_element(sum.Dropped.begin(), sum.Dropped.end());
+  };
+  // In haste a few of many lights first.
+  std::vector<std::size_t> rounds;
+  for (std::size_t most = 8; options.SecondsLeft > 0.0 && 2 * most < lights.Size(); most *= 8)
+  {
+    rounds.push_back(most);
+  }
+  rounds.push_back(std::numeric_limits<std::size_t>::max());
+  const std::int64_t before = result.Rays;
+  for (std::size_t r = 0; r < rounds.size() && !expired; ++r)
+  {
+    StageProgress part = stage;
+    const double span = (stage.End - stage.Begin) / static_cast<double>(rounds.size());
+    part.Begin = stage.Begin + span * static_cast<double>(r);
+    part.End = part.Begin + span;
+    ParallelFor(
+      blocks, options.Threads, part,
+      [&](std::size_t k) {
+        if (r > 0 && clock.Elapsed() > options.SecondsLeft)
         {
-          continue;
+          expired = true;
         }
-        unshadowed[i] += e * Magnitude(light);
-        if (options.Occlusion)
+        if (!expired)
         {
-          See(scene, *lights.Sources[k], *lights.Cutters[k], p, from, sight);
-          rays += sight.Rays;
+          compute(k, rounds[r]);
         }
-        for (int b = 0; b < bands; ++b)
-        {
-          const double visible = sight.Share[b];
-          result.Irradiance[i * bands + b] += light.Intensity[b] * e * visible;
-          result.Error[i * bands + b] +=
-            light.Intensity[b] * e * (sight.Doubt + 16.0 * Epsilon * visible);
-        }
-      }
-    },
-    1e-6 * static_cast<double>(lights.Size()));
-  result.Rays += rays;
-  result.PeakUnshadowed += *std::max_element(unshadowed.begin(), unshadowed.end());
-  RecordDirect(record, result, std::vector<double>(points.size(), 1.0), "direct light");
+      },
+      1e-5 * static_cast<double>(std::min(rounds[r], lights.Size())));
+    result.Rays = before + rays;
+    RecordDirect(record, result, std::vector<double>(points.size(), 1.0), "direct light");
+  }
+  result.TimedOut = result.TimedOut || expired;
+  result.PeakUnshadowed += *std::max_element(peaks.begin(), peaks.end());
+  const double droppedPeak = *std::max_element(dropped.begin(), dropped.end());
+  result.DroppedPeak += droppedPeak;
+  result.DroppedMean +=
+    std::accumulate(dropped.begin(), dropped.end(), 0.0) / static_cast<double>(blocks);
 }
 
 } // namespace radiometry

@@ -278,8 +278,80 @@ TEST(ManyLights, SamplesAreHonest)
   EXPECT_GE(covered, 0.95 * static_cast<double>(r.Irradiance.size()));
   std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
   EXPECT_LT(ratios[ratios.size() / 2], 10.0);
-  RecordProperty("covered", covered);
-  RecordProperty("median", std::to_string(ratios[ratios.size() / 2]));
+}
+
+TEST(ManyLights, PointsAgreeWithEachLightByItself)
+{
+  const Room room(300);
+  const OcclusionScene occluders(room.Geometry);
+  Random random;
+  std::vector<SurfacePoint> points;
+  for (int k = 0; k < 500; ++k)
+  {
+    SurfacePoint p;
+    p.Point = Vec3{ 6 * random() - 3, 6 * random() - 3, 0.1 + 0.5 * random() } -
+      room.Geometry.Origin;
+    p.Normal = random.Direction();
+    points.push_back(p);
+  }
+  const auto bands = static_cast<std::size_t>(room.Geometry.Optics.Bands);
+  std::vector<double> wanted(points.size() * bands, 0.0);
+  Scene single = room.Geometry;
+  for (const Light& light : room.Geometry.Lights)
+  {
+    single.Lights = { light };
+    const DirectResult r = ComputeDirectIrradiance(single, occluders, points, {});
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+    {
+      wanted[k] += r.Irradiance[k];
+    }
+  }
+  for (const double tolerance : { 1e-9, 0.1 })
+  {
+    DirectOptions options;
+    options.RelativeTolerance = tolerance;
+    const DirectResult r = ComputeDirectIrradiance(room.Geometry, occluders, points, options);
+    int covered = 0;
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+    {
+      covered += std::fabs(r.Irradiance[k] - wanted[k]) <= r.Error[k] + 1e-12 * wanted[k] ? 1 : 0;
+      EXPECT_LE(r.Error[k], 1.001 * tolerance * r.Irradiance[k] + 1e-12);
+    }
+    EXPECT_GE(covered, 0.95 * static_cast<double>(wanted.size()));
+  }
+}
+
+/// A run with a time budget ends with a picture of everything, and errors that hold.
+TEST(ManyLights, ATimeBudgetGivesAnHonestPicture)
+{
+  const Room room(900);
+  const OcclusionScene occluders(room.Geometry);
+  DirectOptions exact;
+  exact.RelativeTolerance = 1e-4;
+  const DirectResult reference =
+    ComputeDirectIrradiance(room.Geometry, occluders, room.Patches, exact);
+  for (const double seconds : { 1e-6, 0.05 })
+  {
+    DirectOptions options;
+    options.RelativeTolerance = 1e-5;
+    options.SecondsLeft = seconds;
+    ConvergenceRecord record;
+    const DirectResult r = ComputeDirectIrradiance(
+      room.Geometry, occluders, room.Patches, options, {}, &record);
+    EXPECT_TRUE(r.TimedOut);
+    EXPECT_GE(record.Rows.size(), 1u);
+    EXPECT_LT(r.Rays, reference.Rays);
+    int covered = 0;
+    for (std::size_t k = 0; k < r.Irradiance.size(); ++k)
+    {
+      EXPECT_TRUE(std::isfinite(r.Error[k]));
+      covered += std::fabs(r.Irradiance[k] - reference.Irradiance[k]) <=
+          r.Error[k] + 1e-3 * reference.Irradiance[k]
+        ? 1
+        : 0;
+    }
+    EXPECT_GE(covered, 0.95 * static_cast<double>(r.Irradiance.size())) << seconds;
+  }
 }
 
 TEST(ManyLights, SameBytesForAnyNumberOfThreads)
