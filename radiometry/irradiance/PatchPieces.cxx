@@ -4,54 +4,45 @@
 #include "radiometry/irradiance/PatchBlock.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace radiometry
 {
 
+/// Corners of equal coordinates are one: points of a scene are.
 void PatchBlock::FindPoints()
 {
-  // Corners that are points of the scene are found again by number.
   constexpr std::size_t slots = 512;
-  std::array<std::int32_t, slots> number;
   std::array<std::uint8_t, slots> place;
-  number.fill(-1);
+  place.fill(0xff);
   this->Points.clear();
   for (std::size_t i = 0; i < this->Count; ++i)
   {
-    const Patch& patch = this->Patches[this->Ids[i]];
     for (int k = 0; k < 3; ++k)
     {
-      const Vec3& p = patch.Corners[k];
-      std::int32_t id = -1;
-      for (int j = 0; j < 3 && patch.Triangle >= 0 && id < 0; ++j)
-      {
-        const std::int32_t v = this->Geometry.Triangles[patch.Triangle][j];
-        id = this->Geometry.Points[v] == p ? v : -1;
-      }
-      std::size_t slot = (static_cast<std::uint32_t>(id) * 2654435761u >> 16) % slots;
-      while (id >= 0 && number[slot] >= 0 && number[slot] != id)
+      const Vec3& p = this->Patches[this->Ids[i]].Corners[k];
+      std::uint64_t bits[3];
+      std::memcpy(bits, &p, sizeof bits);
+      const std::uint64_t mixed =
+        (bits[0] * 0x9e3779b97f4a7c15ull) ^ (bits[1] * 0xbf58476d1ce4e5b9ull) ^
+        (bits[2] * 0x94d049bb133111ebull);
+      std::size_t slot = (mixed ^ (mixed >> 32)) * 0x9e3779b97f4a7c15ull >> 55;
+      while (place[slot] != 0xff && !(this->Points[place[slot]] == p))
       {
         slot = (slot + 1) % slots;
       }
-      if (id >= 0 && number[slot] == id)
+      if (place[slot] == 0xff)
       {
-        this->Corner[i][k] = place[slot];
-        continue;
+        place[slot] = static_cast<std::uint8_t>(this->Points.size());
+        this->Points.push_back(p);
       }
-      const auto at = static_cast<std::uint8_t>(this->Points.size());
-      this->Points.push_back(p);
-      this->Corner[i][k] = at;
-      if (id >= 0)
-      {
-        number[slot] = id;
-        place[slot] = at;
-      }
+      this->Corner[i][k] = place[slot];
     }
   }
 }
 
-/// Patches of one triangle touch; others touch where they have two corners in common: then these are
-/// an edge of both their triangles.
+/// Patches of one triangle touch; others touch where they have two corners in common: then the line
+/// between these is on an edge of both their triangles (or else one cuts through the other).
 void PatchBlock::FindLinks()
 {
   constexpr std::size_t slots = 512;

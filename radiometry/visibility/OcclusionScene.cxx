@@ -71,6 +71,13 @@ constexpr double GrazingSine = 1e-7 / EndMargin;
 /// How far from its triangle's rim towards the middle a sensor on the rim looks out.
 constexpr double RimNudge = 1e-6;
 
+/// The length, without the cost of guarding against overflow where there is none.
+double Norm(const Vec3& a)
+{
+  const double l2 = LengthSquared(a);
+  return l2 > 1e-280 && l2 < 1e280 ? std::sqrt(l2) : std::max(Length(a), 1e-300);
+}
+
 /// True when `p` is within `distance` of the box.
 bool Near(const Box3& box, const Vec3& p, double distance)
 {
@@ -140,8 +147,9 @@ struct OcclusionScene::Internals
         }
         continue;
       }
-      begin = std::max(begin, std::min(lo / d, hi / d));
-      end = std::min(end, std::max(lo / d, hi / d));
+      const double inverse = 1.0 / d;
+      begin = std::max(begin, std::min(lo * inverse, hi * inverse));
+      end = std::min(end, std::max(lo * inverse, hi * inverse));
     }
     return begin <= end;
   }
@@ -213,7 +221,7 @@ struct OcclusionScene::Internals
   {
     RayQuery q;
     q.Start = this->ToBox(from.Point);
-    q.Direction = Normalized(direction);
+    q.Direction = direction / Norm(direction);
     q.Length = std::numeric_limits<double>::infinity();
     q.FromTriangle = from.Triangle;
     q.Triangles = &this->Triangles;
@@ -226,8 +234,9 @@ struct OcclusionScene::Internals
 
   RayQuery MakeQuery(const RayEnd& from, const RayEnd& to) const
   {
-    RayQuery q = this->MakeQuery(from, to.Point - from.Point);
-    q.Length = this->Scale * radiometry::Length(to.Point - from.Point);
+    const Vec3 way = to.Point - from.Point;
+    RayQuery q = this->MakeQuery(from, way);
+    q.Length = this->Scale * Norm(way);
     q.ToTriangle = to.Triangle;
     q.Exact = q.Exact || to.Close ||
       (to.Triangle >= 0 &&
