@@ -60,6 +60,13 @@ void PatchBlock::Load(const std::uint32_t* begin, const std::uint32_t* end)
   this->Count = static_cast<std::size_t>(end - begin);
   this->Ids = begin;
   this->Linked = false;
+  for (const std::uint32_t* id = begin; id != end; ++id)
+  {
+    // Neighbours in space may lie far apart in memory: all are on their way while the first are read.
+    const auto* first = reinterpret_cast<const char*>(&this->Patches[*id]);
+    __builtin_prefetch(first);
+    __builtin_prefetch(first + 64);
+  }
   this->Around = {};
   double least = std::numeric_limits<double>::infinity();
   Vec3 sum;

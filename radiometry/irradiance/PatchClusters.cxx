@@ -57,8 +57,12 @@ PatchClusters::PatchClusters(const Scene& scene, const OcclusionScene& occluders
     return group + (p.Side != 0 ? groupCount : 0);
   };
   std::vector<std::atomic<std::uint32_t>> counts(2 * groupCount);
+  std::vector<std::uint64_t> places(patches.size()); // within a bucket: facing, then the tree's order
   forChunks(patches.size(), [&](std::size_t i) {
-    counts[bucketOf(patches[i])].fetch_add(1, std::memory_order_relaxed);
+    const Patch& p = patches[i];
+    const std::uint64_t facing = Facing(p);
+    places[i] = (facing << 32) + (p.Triangle >= 0 ? rank[p.Triangle] : 0);
+    counts[bucketOf(p)].fetch_add(1, std::memory_order_relaxed);
   });
   std::vector<std::uint32_t> first(2 * groupCount + 1, 0);
   for (std::size_t b = 0; b < counts.size(); ++b)
@@ -89,9 +93,7 @@ PatchClusters::PatchClusters(const Scene& scene, const OcclusionScene& occluders
     keys.clear();
     for (std::uint32_t k = first[b]; k < first[b + 1]; ++k)
     {
-      const Patch& p = patches[this->Order[k]];
-      const std::uint64_t facing = Facing(p);
-      keys.push_back({ (facing << 32) + (p.Triangle >= 0 ? rank[p.Triangle] : 0), this->Order[k] });
+      keys.push_back({ places[this->Order[k]], this->Order[k] });
     }
     std::sort(keys.begin(), keys.end());
     std::size_t length = 0;

@@ -50,6 +50,11 @@ void Filter(const RTCFilterFunctionNArguments* args)
     const double along = RTCRayN_tfar(args->ray, args->N, i) - EndMargin;
     const bool nearEnd =
       along < 2.0 * EndMargin || along > query.Length - 2.0 * EndMargin;
+    if (t == query.FromTriangle && nearEnd)
+    {
+      args->valid[i] = 0; // what every ray from a surface meets first
+      continue;
+    }
     double distance = 0.0;
     const Verdict verdict = Judge(query, t, nearEnd, distance);
     if (verdict != Verdict::Hit)
@@ -333,12 +338,12 @@ struct OcclusionScene::Internals
     return this->Panes->Pass(begin > 0.0 ? From(q, begin) : q, bands);
   }
 
-  /// Rays of neighbours, eight at a time.
-  static constexpr std::size_t PacketSize = 8;
+  /// Rays of neighbours, sixteen at a time.
+  static constexpr std::size_t PacketSize = 16;
   void OccludedPacket(RayQuery* queries, std::size_t count, std::uint8_t* hidden) const
   {
-    alignas(32) int valid[PacketSize] = {};
-    RTCRay8 rays;
+    alignas(64) int valid[PacketSize] = {};
+    RTCRay16 rays;
     double ends[PacketSize] = {};
     bool any = false;
     for (std::size_t k = 0; k < count; ++k)
@@ -391,12 +396,12 @@ struct OcclusionScene::Internals
     args.filter = &Filter;
     args.flags = static_cast<RTCRayQueryFlags>(
       RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | RTC_RAY_QUERY_FLAG_COHERENT);
-    rtcOccluded8(valid, this->Handle, &rays, &args);
+    rtcOccluded16(valid, this->Handle, &rays, &args);
 #else
     rtcInitIntersectContext(&context.Context);
     context.Context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.Context.filter = &Filter;
-    rtcOccluded8(valid, this->Handle, &context.Context, &rays);
+    rtcOccluded16(valid, this->Handle, &context.Context, &rays);
 #endif
     for (std::size_t k = 0; k < count; ++k)
     {
