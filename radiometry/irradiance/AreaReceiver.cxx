@@ -19,7 +19,7 @@ constexpr double Deviations = 2.5;
 /// Of the tolerance: what the sources left out may have.
 constexpr double DroppedShare = 0.1;
 /// A value below this share of the unshadowed one is not resolved any finer.
-constexpr double DarkestShare = 0.01;
+constexpr double DarkestShare = 0.001;
 /// Parts of a source that one sample of a patch may look at.
 constexpr int WorkASample = 2;
 
@@ -308,7 +308,7 @@ AreaLight AreaReceiver::AtPatch(const Patch& patch, std::uint64_t key, const dou
   {
     return sums.Result(0.0);
   }
-  const double tolerance = std::clamp(1e-4 * effort.RelativeTolerance, 1e-12, 1e-6);
+  const double tolerance = std::clamp(0.01 * effort.RelativeTolerance, 1e-12, 1e-8);
   const auto exchange = [&](Part& part, double wanted) {
     const ExchangePatch receiver(part.Corners);
     part.Whole = 0.0;

@@ -108,6 +108,11 @@ std::vector<ViewPoint> AreaStage::Places(const SurfacePoint& point) const
   {
     return places;
   }
+  if (!point.Around.empty() && this->Blocking->FlatAt(point.Point, point.Normal))
+  {
+    // In the middle of a flat surface what the vertex itself sees is well defined.
+    return { { point.Point, { point.Point, point.Around.front() }, point.Normal, {} } };
+  }
   if (!point.Around.empty())
   {
     for (const PointStart& start : PointStarts(this->Geometry, this->Occluders, point))

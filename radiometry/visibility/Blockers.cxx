@@ -136,6 +136,37 @@ bool Blockers::AnyNear(const Box3& box) const
     [](std::int32_t) { return false; });
 }
 
+bool Blockers::FlatAt(const Vec3& point, const Vec3& normal) const
+{
+  const double reach = 2.0 * this->Tolerance;
+  return this->Tree.Visit(
+    [&](const Box3& b) {
+      for (int a = 0; a < 3; ++a)
+      {
+        if (b.Min[a] > point[a] + reach || b.Max[a] < point[a] - reach)
+        {
+          return false;
+        }
+      }
+      return true;
+    },
+    [&](std::int32_t t) {
+      const Triangle3& v = this->Triangles[t];
+      const Vec3& n = this->Normals[t];
+      if (std::fabs(Dot(n, normal)) > 1.0 - 1e-12)
+      {
+        return true;
+      }
+      bool touches = std::fabs(Dot(n, point - v[0])) <= reach;
+      for (int k = 0; k < 3 && touches; ++k)
+      {
+        const Vec3 inward = Normalized(Cross(n, v[(k + 1) % 3] - v[k]));
+        touches = Dot(inward, point - v[k]) >= -reach;
+      }
+      return !touches;
+    });
+}
+
 bool Blockers::InShaft(
   const Shaft& shaft, std::size_t most, std::vector<std::int32_t>& found) const
 {

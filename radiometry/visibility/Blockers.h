@@ -28,6 +28,9 @@ public:
   /// True when a triangle's box comes within rounding of single precision of a box.
   bool AnyNear(const Box3& box) const;
 
+  /// True when every triangle that touches the point lies square to `normal` (unit).
+  bool FlatAt(const Vec3& point, const Vec3& normal) const;
+
   /// Appends the triangles that touch the inside of a shaft; at most `most`, and false when there
   /// were more.
   bool InShaft(const Shaft& shaft, std::size_t most, std::vector<std::int32_t>& found) const;
