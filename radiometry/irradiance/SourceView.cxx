@@ -14,7 +14,7 @@ namespace
 
 constexpr int RaysAPart = 8;
 /// Less than this of a source is what rounding left between shadows.
-constexpr double Crack = 1e-12;
+constexpr double Crack = 1e-10;
 
 /// What is left of `whole` past shadows, given the sum of the pieces.
 double Left(double sum, double whole)

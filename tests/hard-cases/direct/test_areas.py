@@ -180,8 +180,9 @@ def test_closed_boxes_stay_dark():
                                 [(1 + gap, x, y), (1 + gap, x, y + 0.4), (1 + gap, x + 0.4, y)],
                                 [(1 + gap, 1 + gap, 0), (1 + gap, 1 + gap, 1), (2, 2, 0.5)],
                                 [(-gap, -0.5, 0.2), (-gap, 1.5, 0.2), (-gap, 1.5, 0.8)]):
-                    run = Run(data, area(corners, 1.0, True).moved(turn))
-                    assert (run.e == 0).all(), (seed, n, gap, run.e.max())
+                    for location in (0, POINTS):
+                        run = Run(data, area(corners, 1.0, True).moved(turn), SampleLocation=location)
+                        assert (run.e == 0).all(), (seed, n, gap, location, run.e.max())
 
 
 def test_reciprocity_with_a_blocker():
