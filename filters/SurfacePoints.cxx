@@ -70,6 +70,22 @@ Polygons CollectPolygons(vtkPolyData* data)
   return polygons;
 }
 
+/// The arrays of `from` that have a tuple for each of `count`; others cannot be carried along.
+template <typename Attributes>
+vtkSmartPointer<Attributes> Complete(Attributes* from, vtkIdType count)
+{
+  auto kept = vtkSmartPointer<Attributes>::New();
+  kept->ShallowCopy(from);
+  for (int k = kept->GetNumberOfArrays() - 1; k >= 0; --k)
+  {
+    if (kept->GetAbstractArray(k)->GetNumberOfTuples() != count)
+    {
+      kept->RemoveArray(k);
+    }
+  }
+  return kept;
+}
+
 /// The polydata of a split surface: points repeated as it says, all data carried along, normals.
 vtkSmartPointer<vtkPolyData> MakePolyData(
   vtkPolyData* input, const Polygons& polygons, const radiometry::SplitSurface& split)
@@ -85,12 +101,13 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
   vtkPointData* attributes = output->GetPointData();
+  const auto pointArrays = Complete(input->GetPointData(), input->GetNumberOfPoints());
   attributes->CopyAllOn();
-  attributes->CopyAllocate(input->GetPointData(), count);
+  attributes->CopyAllocate(pointArrays, count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     points->SetPoint(i, input->GetPoint(split.Source[i]));
-    attributes->CopyData(input->GetPointData(), split.Source[i], i);
+    attributes->CopyData(pointArrays, split.Source[i], i);
     const radiometry::Vec3& n = split.Normals[i];
     normals->SetTuple3(i, n.x, n.y, n.z);
   }
@@ -102,11 +119,12 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   output->SetLines(input->GetLines());
   const vtkIdType others = input->GetNumberOfVerts() + input->GetNumberOfLines();
   vtkCellData* values = output->GetCellData();
+  const auto cellArrays = Complete(input->GetCellData(), input->GetNumberOfCells());
   values->CopyAllOn();
-  values->CopyAllocate(input->GetCellData(), others + static_cast<vtkIdType>(polygons.Origin.size()));
+  values->CopyAllocate(cellArrays, others + static_cast<vtkIdType>(polygons.Origin.size()));
   for (vtkIdType c = 0; c < others; ++c)
   {
-    values->CopyData(input->GetCellData(), c, c);
+    values->CopyData(cellArrays, c, c);
   }
   vtkNew<vtkCellArray> cells;
   for (std::size_t c = 0; c < polygons.Origin.size(); ++c)
@@ -116,7 +134,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
     {
       cells->InsertCellPoint(split.Corners[k]);
     }
-    values->CopyData(input->GetCellData(), polygons.Origin[c], others + static_cast<vtkIdType>(c));
+    values->CopyData(cellArrays, polygons.Origin[c], others + static_cast<vtkIdType>(c));
   }
   output->SetPolys(cells);
   return output;
