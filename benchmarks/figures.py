@@ -12,6 +12,7 @@ import os
 import re
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -20,6 +21,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 COLOURS = {"vtkRadiometry": "#c0392b", "Mitsuba 3": "#2471a3", "Radiance": "#d68910"}
 MARKS = {"vtkRadiometry": "o", "Mitsuba 3": "s", "Radiance": "^"}
 FLOOR = 1e-6  # errors below are drawn on this line
+FEWEST = 30  # values, for a bar of coverage
 
 
 def results(name):
@@ -52,15 +54,23 @@ def draw_others(data):
         for level in (1e-2, 1e-3):
             ax.axhline(level, color="grey", lw=0.7, ls=":")
         ax.set_ylim(FLOOR / 2, 1)
-        ax.set_xlabel("seconds")
+        ax.set_xlim(5e-4, 20)
+        ax.set_xlabel("processor seconds")
         ax.grid(alpha=0.25)
     for ax in axes[:, 0]:
         ax.set_ylabel("RMS relative error")
         ax.set_yticks([10.0**k for k in range(-6, 1)])
         ax.set_yticklabels(["≤ $10^{-6}$"] + [f"$10^{{{k}}}$" for k in range(-5, 1)])
-    axes[0][0].legend(fontsize=9, loc="lower left")
+    axes[0][0].legend(fontsize=9, loc="upper right")
     figure.tight_layout()
     save(figure, "error-against-time")
+
+
+def exponent(rows, size, least):
+    """p of seconds = c size^p, least squares of the logarithms over sizes from `least` on."""
+    rows = [row for row in rows if row and row[size] >= least]
+    return np.polyfit(np.log([row[size] for row in rows]),
+                      np.log([row["seconds"] for row in rows]), 1)[0]
 
 
 def draw_scaling(data):
@@ -77,7 +87,7 @@ def draw_scaling(data):
     for key, label, colour in (("overLightsThatAllMatter", "every light matters", "#c0392b"),
                                ("overLightsOfWhichFewMatter", "few matter to a cell", "#2471a3")):
         rows_l = [r for r in data[key] if r]
-        p = data["exponents"][key]["seconds"]
+        p = exponent(rows_l, "lights", 100)
         lights.loglog([r["lights"] for r in rows_l], [r["seconds"] for r in rows_l], marker="o",
                       ms=4, color=colour, label=f"{label}: $n^{{{p:.2f}}}$")
     lights.set(xlabel="point lights", ylabel="seconds", title="2048 cells, 64 boxes, 1 % asked")
@@ -86,27 +96,30 @@ def draw_scaling(data):
     memory.loglog(x, [r["inputBytesPerCell"] for r in rows], marker="o", ms=4, color="#7f8c8d",
                   label="scene and patches alone")
     memory.set(xlabel="triangles", ylabel="bytes a cell", title="Memory")
-    for ax in (cells, lights, memory):
+    for ax, place in ((cells, "upper left"), (lights, "upper left"), (memory, "upper right")):
         ax.grid(alpha=0.25)
-        ax.legend(fontsize=9)
+        ax.legend(fontsize=9, loc=place)
+    cells.set_ylim(top=cells.get_ylim()[1] * 30)
+    lights.set_ylim(top=lights.get_ylim()[1] * 5)
     figure.tight_layout()
     save(figure, "scaling")
 
 
 def draw_coverage(table):
-    figure, ax = plt.subplots(figsize=(9.5, 0.33 * len(table) + 1.4))
+    figure, ax = plt.subplots(figsize=(9.0, 0.21 * len(table) + 1.2))
     names = [f"{light}, {receivers}" for light, receivers, _ in table][::-1]
     for offset, key, count, label, colour in (
             (0.18, "exactCoverage", "exact", "exact to rounding", "#7f8c8d"),
             (-0.18, "estimatedCoverage", "estimated", "estimated", "#c0392b")):
-        y = [i + offset for i, (_, _, s) in enumerate(table[::-1]) if s[count]]
-        share = [100 * s[key] for _, _, s in table[::-1] if s[count]]
+        y = [i + offset for i, (_, _, s) in enumerate(table[::-1]) if s[count] >= FEWEST]
+        share = [100 * s[key] for _, _, s in table[::-1] if s[count] >= FEWEST]
         ax.barh(y, [v - 80 for v in share], left=80, height=0.34, color=colour, label=label)
     ax.axvline(95, color="black", lw=1, ls="--")
     ax.set_yticks(range(len(names)))
-    ax.set_yticklabels(names, fontsize=8)
+    ax.set_yticklabels(names, fontsize=7.5)
+    ax.set_ylim(-0.6, len(names) - 0.4)
     ax.set(xlim=(80, 100.5), xlabel="share of values whose true error is within the stated one, %")
-    ax.legend(fontsize=9, loc="lower left")
+    ax.legend(fontsize=9, loc="lower center", bbox_to_anchor=(0.4, 1.0), ncol=2)
     figure.tight_layout()
     save(figure, "coverage")
 
@@ -145,22 +158,25 @@ def number(value):
 def others_text(data):
     lines = [f"Commit {data['commit']}, {data['processor']}, {data['threads']} thread(s), "
              f"{data['cells']} receivers, load {data['load']:.0f} of other work on the machine.", "",
-             "| scene | receivers | program | slope | seconds at 1 % | factor | seconds at 0.1 % | "
-             "factor |", "|---|---|---|---|---|---|---|---|"]
+             "| scene | receivers | program | slope | seconds at 1 % | factor | all counted | "
+             "seconds at 0.1 % | factor | all counted |", "|---|---|---|---|---|---|---|---|---|---|"]
     for row in data["rows"]:
         for program in row["programs"]:
             cells = []
-            for at in program["at"]:
-                mark = " *" if at["extrapolated"] and at["seconds"] else ""
-                cells += [number(at["seconds"]) + mark,
-                          "1" if program["name"] == "vtkRadiometry" else number(at.get("factor"))]
+            for at, ours in zip(program["at"], row["programs"][0]["at"]):
+                seconds, mark = at["seconds"], ""
+                if at["extrapolated"]:  # not reached: at least its longest run
+                    seconds, mark = max(run["seconds"] for run in program["curve"]), "> "
+                cells += [mark + number(seconds), mark + number(seconds / ours["seconds"]),
+                          "–" if mark else number(at["allFactor"])]
             slope = "–" if program["slope"] is None else f"{program['slope']:.2f}"
-            best = min(run["rms"] for run in program["curve"]) if program["curve"] else 1.0
-            if best < 1e-5:
-                slope = f"error {best:.0e}"
+            worst = max(run["rms"] for run in program["curve"])
+            if worst < 1e-5:
+                slope = f"error {worst:.0e}"
             lines.append(f"| {row['scene']} | {row['receivers']} | {program['name']} | {slope} | "
                          + " | ".join(cells) + " |")
-    lines += ["", "\\* beyond its last run, continued along its slope; –: no trend to continue."]
+    lines += ["", ">: not reached by its longest run. Slope: p of error = c seconds^p; \"error\" where it does "
+              "not depend on time. All counted: loading and compiling included."]
     return "\n".join(lines)
 
 
@@ -181,7 +197,7 @@ def scaling_text(data):
             ("overLightsThatAllMatter", "seconds against lights, every one matters", all_last),
             ("overLightsOfWhichFewMatter", "seconds against lights, few matter to a cell",
              few_last)):
-        lines.append(f"| {label} | {p[key]['seconds']:.2f} | {rows[-1]['lights']}: "
+        lines.append(f"| {label} | {exponent(rows, 'lights', 100):.2f} (from 100 on) | {rows[-1]['lights']}: "
                      f"{rows[-1]['seconds']:.2f} s, {rows[-1]['seconds'] / rows[0]['seconds']:.0f} "
                      f"times one light; stated error {rows[-1]['meanError']:.1e} |")
     lines.append(f"| memory | | {last['peakBytesPerCell']:.0f} bytes a cell at the peak, of which "
@@ -208,9 +224,9 @@ def write(name, text):
     path = os.path.join(ROOT, "docs", "accuracy.md")
     with open(path, encoding="utf-8") as file:
         page = file.read()
-    mark = re.compile(rf"(<!-- direct: {name} -->\n).*?(\n<!-- end -->)", re.DOTALL)
+    mark = re.compile(rf"(<!-- direct: {name} -->\n)(?:.*?\n)??(<!-- end -->)", re.DOTALL)
     assert mark.search(page), f"no place for {name} in docs/accuracy.md"
-    page = mark.sub(lambda m: m.group(1) + text + m.group(2), page)
+    page = mark.sub(lambda m: m.group(1) + text + "\n" + m.group(2), page)
     with open(path, "w", encoding="utf-8") as file:
         file.write(page)
 

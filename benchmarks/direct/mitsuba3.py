@@ -7,9 +7,10 @@ scene.sample_emitter_direction with the visibility test, at places drawn by its 
 sampler: one compiled kernel of all samples of all receivers, no camera, no film. That is the leanest
 way to ask Mitsuba. Times are of runs whose kernel was compiled before.
 """
-import time
 
 import numpy as np
+
+from direct.clock import clock
 
 LARGEST = 1 << 24  # samples a pass
 
@@ -91,22 +92,22 @@ class Mitsuba:
         return total / (each * passes)
 
     def sweep(self, scene, receivers, seconds):
-        begin = time.perf_counter()
+        begin = clock()
         built = self.build(scene)
-        building = time.perf_counter() - begin
+        building = clock() - begin
         if receivers == "points" and scene.point is not None:
             steps = (1,)
         else:
             steps = (1, 4, 16, 36, 64, 144, 256, 576, 1024, 2304, 4096, 9216, 16384, 65536)
         for samples in steps:
-            begin = time.perf_counter()
+            begin = clock()
             self.estimate(built, scene, receivers, samples, 0)
-            cold = time.perf_counter() - begin
+            cold = clock() - begin
             spent = np.inf
             for seed in (1000, 2000) if cold < seconds / 4 else (1000,):
-                begin = time.perf_counter()
+                begin = clock()
                 values = self.estimate(built, scene, receivers, samples, seed)
-                spent = min(spent, time.perf_counter() - begin)
+                spent = min(spent, clock() - begin)
             yield f"{samples} samples a receiver", values, spent, building + cold
             if spent > seconds:
                 break

@@ -7,9 +7,10 @@ light to 1e-7. A panel is a `light` polygon. No ambient, no threshold: what is l
 import os
 import subprocess
 import tempfile
-import time
 
 import numpy as np
+
+from direct.clock import clock
 
 RADIUS = 1e-3
 
@@ -48,9 +49,9 @@ class Radiance:
         path = os.path.join(folder, "scene.rad")
         with open(path, "w", encoding="ascii") as file:
             file.writelines(text)
-        begin = time.perf_counter()
+        begin = clock()
         octree = self.call("oconv", path).stdout
-        seconds = time.perf_counter() - begin
+        seconds = clock() - begin
         with open(os.path.join(folder, "scene.oct"), "wb") as file:
             file.write(octree)
         return file.name, seconds
@@ -64,10 +65,10 @@ class Radiance:
                    "-dp", "0", "-fdf", *options]
         if self.threads > 1:
             command += ["-n", str(self.threads)]
-        begin = time.perf_counter()
+        begin = clock()
         with open(path, "rb") as file:
             out = self.call("rtrace", *command, octree, stdin=file).stdout
-        seconds = time.perf_counter() - begin
+        seconds = clock() - begin
         return np.frombuffer(out, np.float32).reshape(-1, 3)[:, 0].astype(float), seconds
 
     def start(self, octree, folder):
