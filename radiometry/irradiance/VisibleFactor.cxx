@@ -37,6 +37,7 @@ struct Shadow
     double Margin;
   };
   std::vector<Plane> Planes;
+  std::vector<std::uint8_t> Seen; // faces of a body
 
   /// The planes through x and the rim of a flat caster, and its own. False where x lies on its plane:
   /// then it hides nothing.
@@ -63,16 +64,16 @@ struct Shadow
   /// does not. False where it sees none: x is inside or on the body.
   bool OfBody(const Vec3& x, const ConvexGroup& body, const Blockers& blockers)
   {
-    static thread_local std::vector<std::uint8_t> seen;
     this->Planes.clear();
-    seen.assign(body.Triangles.size(), 0);
-    bool any = false;
-    for (std::size_t f = 0; f < seen.size(); ++f)
+    this->Seen.resize(body.Faces.size());
+    std::uint8_t* seen = this->Seen.data();
+    const double rounding = blockers.Rounding();
+    int any = 0;
+    for (std::size_t f = 0; f < body.Faces.size(); ++f)
     {
-      const std::int32_t t = body.Triangles[f];
-      seen[f] =
-        body.Outward * Dot(blockers.Normal(t), x - blockers[t][0]) > blockers.Rounding() ? 1 : 0;
-      any = any || seen[f];
+      const ConvexGroup::Face& face = body.Faces[f];
+      seen[f] = Dot(face.Normal, x) - face.Height > rounding ? 1 : 0;
+      any += seen[f];
     }
     for (const ConvexGroup::Edge& e : body.Edges)
     {
@@ -80,11 +81,10 @@ struct Shadow
       {
         Vec3 normal = Cross(e.A - x, e.B - e.A);
         normal = Dot(normal, body.Middle - x) < 0.0 ? -normal : normal;
-        this->Planes.push_back(
-          { normal, x, blockers.Rounding() * std::sqrt(LengthSquared(normal)) });
+        this->Planes.push_back({ normal, x, rounding * std::sqrt(LengthSquared(normal)) });
       }
     }
-    return any;
+    return any > 0;
   }
 
   /// Adds to `rest` what of `piece` is not in the shadow, and to `hidden` (or null) what is. False

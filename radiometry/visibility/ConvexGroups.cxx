@@ -233,10 +233,10 @@ bool ConvexGroups::MakeBody(const Scene& scene, ConvexGroup& group) const
   };
   Vec3 through;
   const Vec3 first = plane(group.Triangles[0], through);
-  group.Outward = Dot(first, group.Middle - through) < 0.0 ? 1.0 : -1.0;
+  const double outward = Dot(first, group.Middle - through) < 0.0 ? 1.0 : -1.0;
   for (const std::int32_t t : group.Triangles)
   {
-    const Vec3 n = group.Outward * plane(t, through);
+    const Vec3 n = outward * plane(t, through);
     if (!(Dot(n, group.Middle - through) < -allowed))
     {
       return false;
@@ -248,6 +248,7 @@ bool ConvexGroups::MakeBody(const Scene& scene, ConvexGroup& group) const
         return false;
       }
     }
+    group.Faces.push_back({ n, Dot(n, through) });
   }
   return true;
 }

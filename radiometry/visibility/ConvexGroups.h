@@ -24,8 +24,15 @@ struct ConvexGroup
     std::array<std::int32_t, 2> Faces; // of Triangles
   };
   std::vector<Edge> Edges;
-  double Outward = 1.0; // its triangles' normals times this point outward
-  Vec3 Middle;          // inside it
+  /// A body: of each triangle the outward unit normal n and the height of its plane: before it where
+  /// n . x > height.
+  struct Face
+  {
+    Vec3 Normal;
+    double Height;
+  };
+  std::vector<Face> Faces;
+  Vec3 Middle; // inside it
   std::vector<std::int32_t> Triangles;
   std::vector<Vec3> Corners;
   Box3 Box;
