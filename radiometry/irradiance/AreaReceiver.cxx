@@ -2,6 +2,7 @@
 #include "radiometry/irradiance/AreaReceiver.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/AreaSums.h"
 #include "radiometry/irradiance/SampleMean.h"
 
 #include <algorithm>
@@ -15,11 +16,6 @@ namespace
 {
 
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
-constexpr double Deviations = 2.5;
-/// Of the tolerance: what the sources left out may have.
-constexpr double DroppedShare = 0.1;
-/// A value below this share of the unshadowed one is not resolved any finer.
-constexpr double DarkestShare = 0.001;
 /// Parts of a source that one sample of a patch may look at.
 constexpr int WorkASample = 2;
 
@@ -60,162 +56,6 @@ struct AreaReceiver::Part
 
   double Doubt() const { return this->Variance * this->Weight * this->Weight; }
   bool operator<(const Part& other) const { return this->Doubt() < other.Doubt(); }
-};
-
-/// Sums over sources, per band.
-struct AreaReceiver::Sums
-{
-  std::vector<double> Value, Variance, Rule, Whole, Rest;
-
-  explicit Sums(std::size_t bands)
-    : Value(bands, 0.0)
-    , Variance(bands, 0.0)
-    , Rule(bands, 0.0)
-    , Whole(bands, 0.0)
-    , Rest(bands, 0.0)
-  {
-  }
-  void Add(const std::vector<double>& exitance, double sign, double value, double variance,
-    double rule, double whole)
-  {
-    for (std::size_t b = 0; b < exitance.size(); ++b)
-    {
-      const double m = exitance[b];
-      this->Value[b] += sign * m * value;
-      this->Variance[b] += sign * m * m * variance;
-      this->Rule[b] += sign * m * rule;
-      this->Whole[b] += m * whole;
-    }
-  }
-  /// Forgets all but the unshadowed sums and the rest.
-  void Clear()
-  {
-    for (std::vector<double>* v : { &this->Value, &this->Variance, &this->Rule })
-    {
-      std::fill(v->begin(), v->end(), 0.0);
-    }
-  }
-  double Error(std::size_t b) const
-  {
-    return Deviations * std::sqrt(std::max(0.0, this->Variance[b])) + std::max(0.0, this->Rule[b]);
-  }
-  double Allowed(std::size_t b, const double* before, const AreaEffort& effort) const
-  {
-    const double value = std::max(this->Value[b], DarkestShare * this->Whole[b]);
-    return std::max(
-      effort.RelativeTolerance * (before[b] + value), effort.AbsoluteTolerance);
-  }
-  bool Met(const double* before, const AreaEffort& effort) const
-  {
-    for (std::size_t b = 0; b < this->Value.size(); ++b)
-    {
-      if (this->Error(b) + this->Rest[b] > 0.9 * this->Allowed(b, before, effort))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-  /// True when what is left out cannot matter.
-  bool Enough(const double* before, const AreaEffort& effort) const
-  {
-    for (std::size_t b = 0; b < this->Value.size(); ++b)
-    {
-      const double value = before[b] + std::max(0.0, this->Value[b]);
-      if (this->Rest[b] >
-        DroppedShare * std::max(effort.RelativeTolerance * value, effort.AbsoluteTolerance))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-  AreaLight Result(double rounding) const
-  {
-    AreaLight light;
-    light.Value = this->Value;
-    light.Unshadowed = this->Whole;
-    light.Error.resize(this->Value.size());
-    for (std::size_t b = 0; b < this->Value.size(); ++b)
-    {
-      light.Value[b] = std::max(0.0, this->Value[b]);
-      light.Error[b] = this->Error(b) + this->Rest[b] + rounding * light.Value[b];
-      light.Unshadowed[b] += this->Rest[b];
-    }
-    return light;
-  }
-
-  /// Visits sources, greatest bound first, until the others cannot matter.
-  template <class F>
-  void Visit(const AreaSources& sources, const Vec3& center, const Vec3& normal, double radius,
-    const double* before, const AreaEffort& effort, F&& visit)
-  {
-    const auto& groups = sources.Groups();
-    if (groups.empty())
-    {
-      return;
-    }
-    const std::size_t bands = this->Value.size();
-    struct Bound
-    {
-      double Greatest;
-      double Factor;
-      std::int32_t Group;
-      bool operator<(const Bound& o) const
-      {
-        return this->Greatest < o.Greatest || (this->Greatest == o.Greatest && this->Group > o.Group);
-      }
-    };
-    const auto bound = [&](const Bound& q, std::size_t b) {
-      const AreaSources::Group& g = groups[q.Group];
-      return std::min(g.Exitances[b], g.Power[b] > 0.0 ? g.Power[b] * q.Factor : 0.0);
-    };
-    std::vector<Bound> heap;
-    const auto push = [&](std::int32_t g) {
-      Bound q{ 0.0, AreaSources::Factor(groups[g], center, normal, radius), g };
-      if (q.Factor > 0.0)
-      {
-        for (std::size_t b = 0; b < bands; ++b)
-        {
-          const double value = bound(q, b);
-          this->Rest[b] += value;
-          q.Greatest = std::max(q.Greatest, value);
-        }
-        heap.push_back(q);
-        std::push_heap(heap.begin(), heap.end());
-      }
-    };
-    push(0);
-    while (!heap.empty() && !this->Enough(before, effort))
-    {
-      std::pop_heap(heap.begin(), heap.end());
-      const Bound q = heap.back();
-      heap.pop_back();
-      for (std::size_t b = 0; b < bands; ++b)
-      {
-        this->Rest[b] = std::max(0.0, this->Rest[b] - bound(q, b));
-      }
-      const AreaSources::Group& g = groups[q.Group];
-      if (g.Source >= 0)
-      {
-        visit(static_cast<std::size_t>(g.Source));
-      }
-      else
-      {
-        push(q.Group + 1);
-        push(g.Second);
-      }
-    }
-    // Summed anew: taking away leaves rounding.
-    std::fill(this->Rest.begin(), this->Rest.end(), 0.0);
-    for (const Bound& q : heap)
-    {
-      for (std::size_t b = 0; b < bands; ++b)
-      {
-        this->Rest[b] += bound(q, b);
-      }
-    }
-  }
 };
 
 AreaReceiver::AreaReceiver(const SourceView& view, double scale)
@@ -303,7 +143,7 @@ AreaLight AreaReceiver::AtPatch(const Patch& patch, std::uint64_t key, const dou
   const AreaSources& sources = this->View.GetSources();
   const auto bands = static_cast<std::size_t>(sources.Bands());
   const ExchangePatch shape(patch.Corners);
-  Sums sums(bands);
+  AreaSums sums(bands);
   if (!(shape.Area > 0.0))
   {
     return sums.Result(0.0);
@@ -425,7 +265,7 @@ AreaLight AreaReceiver::AtPoint(const SurfacePoint& point, const std::vector<Vie
 {
   const AreaSources& sources = this->View.GetSources();
   const auto bands = static_cast<std::size_t>(sources.Bands());
-  Sums sums(bands);
+  AreaSums sums(bands);
   std::int64_t rays = 0;
   bool sampled = false;
   sums.Visit(sources, point.Point, point.Normal, 0.0, before, effort, [&](std::size_t s) {

@@ -53,7 +53,6 @@ public:
 
 private:
   struct Part;
-  struct Sums;
   void Evaluate(const Patch& patch, std::uint64_t key, Part& part, std::int64_t& rays) const;
 
   const SourceView& View;
