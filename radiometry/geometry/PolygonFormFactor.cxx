@@ -136,6 +136,22 @@ double PointToVisiblePolygon(const Vec3& x, const Vec3& n, const SmallPolygon& p
   return std::max(0.0, -sum / (2.0 * Pi));
 }
 
+double PointToPolygonRounding(const Vec3& x, const Vec3* corners, int count)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  double size = 0.0;
+  double angles = 0.0;
+  for (int k = 0; k < count; ++k)
+  {
+    const Vec3 a = corners[k] - x;
+    const Vec3 b = corners[k + 1 < count ? k + 1 : 0] - x;
+    nearest = std::min(nearest, LengthSquared(a));
+    size = std::max(size, LengthSquared(corners[k] - corners[0]));
+    angles += std::atan2(Length(Cross(a, b - a)), Dot(a, b));
+  }
+  return size <= SmallRatio * SmallRatio * nearest ? 0.0 : Epsilon * angles / Pi;
+}
+
 double PointToPolygon(const Vec3& x, const Vec3& n, const SmallPolygon& polygon)
 {
   if (polygon.N < 3)

@@ -42,4 +42,8 @@ double PointToPolygon(const Vec3& x, const Vec3& n, const SmallPolygon& polygon)
 /// The same for a polygon known to be above the horizon of x and to face it.
 double PointToVisiblePolygon(const Vec3& x, const Vec3& n, const SmallPolygon& polygon);
 
+/// What rounding may change in that: of the sum over the rim, eps of its terms without their signs
+/// (a sliver keeps few digits); 0 where the rule on the polygon is used.
+double PointToPolygonRounding(const Vec3& x, const Vec3* corners, int count);
+
 } // namespace radiometry

@@ -284,6 +284,10 @@ AreaLight AreaReceiver::AtPoint(const SurfacePoint& point, const std::vector<Vie
     }
     double share = 1.0;
     double error = 1e-13 * whole;
+    for (const ConvexPolygon& piece : pieces)
+    {
+      error += PointToPolygonRounding(point.Point, piece.P, piece.N);
+    }
     double variance = 0.0;
     if (this->View.GetBlockers() && effort.Hasty)
     {
