@@ -329,7 +329,8 @@ double SkyTable::Pixel(
   return ClippedMean(middle, a, b);
 }
 
-double SkyTable::Clipped(const Vec3& n, std::size_t layer, int row, int column) const
+double SkyTable::Clipped(
+  const Vec3& n, std::size_t layer, int row, int column, double& crossing) const
 {
   const int c = this->Wrap(column);
   if (this->FineRows * this->FineColumns == 1)
@@ -343,7 +344,12 @@ double SkyTable::Clipped(const Vec3& n, std::size_t layer, int row, int column) 
     bool whole = false;
     const double mean =
       this->Pixel(n, this->Latitudes[row], azimuth, 2.0 * Pi / this->Columns, whole);
-    return whole ? std::max(0.0, Dot(n, this->SumOf(this->Layers[layer], row, c, 1))) : flux * mean;
+    if (whole)
+    {
+      return std::max(0.0, Dot(n, this->SumOf(this->Layers[layer], row, c, 1)));
+    }
+    crossing += flux * mean;
+    return flux * mean;
   }
   const int columns = this->Columns * this->FineColumns;
   double sum = 0.0;
@@ -359,7 +365,10 @@ double SkyTable::Clipped(const Vec3& n, std::size_t layer, int row, int column) 
       {
         const double azimuth = (2.0 * (k + 0.5) / columns - 1.0) * Pi;
         bool whole = false;
-        sum += value * fine.SolidAngle * this->Pixel(n, fine, azimuth, 2.0 * Pi / columns, whole);
+        const double part =
+          value * fine.SolidAngle * this->Pixel(n, fine, azimuth, 2.0 * Pi / columns, whole);
+        crossing += whole ? 0.0 : part;
+        sum += part;
       }
     }
   }
@@ -380,13 +389,12 @@ double SkyTable::RowIrradiance(
   double edge = 0.0;
   for (int k = 0; k < span.Left; ++k)
   {
-    edge += this->Clipped(n, layer, row, span.Begin + k);
+    edge += this->Clipped(n, layer, row, span.Begin + k, crossing);
   }
   for (int k = span.Count - span.Right; k < span.Count; ++k)
   {
-    edge += this->Clipped(n, layer, row, span.Begin + k);
+    edge += this->Clipped(n, layer, row, span.Begin + k, crossing);
   }
-  crossing += edge;
   return std::max(0.0, sum) + edge;
 }
 
@@ -446,9 +454,9 @@ double SkyTable::Irradiance(const Vec3& normal, double* bands) const
     bands[b] = this->Grey() ? (total > 0.0 ? intensity[b] / total * sum : 0.0) : layers[b + 1];
   }
   // The share of the crossed pixels is known to the curvature of the horizon inside them, and to
-  // the change of the radiance inside them.
-  const double change = this->Sky().Model() == SkyModel::Map ? 1e-3 : 2e-2;
-  return 1e-12 + (sum > 0.0 ? change * crossing / sum : 0.0);
+  // the change of the radiance inside them; the Gauss points of the others lose little.
+  const bool map = this->Sky().Model() == SkyModel::Map;
+  return (map ? 1e-12 : 3e-9) + (sum > 0.0 ? (map ? 1e-3 : 1.5e-2) * crossing / sum : 0.0);
 }
 
 double HorizontalIrradiance(std::shared_ptr<const SkyRadiance> sky, int band)

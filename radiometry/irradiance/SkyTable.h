@@ -72,8 +72,9 @@ private:
   void MakePrefix();
   Span Visible(const Vec3& normal, int row) const;
   Vec3 SumOf(const Layer& layer, int row, int begin, int count) const;
-  /// Irradiance from one pixel, clipped at the horizon.
-  double Clipped(const Vec3& normal, std::size_t layer, int row, int column) const;
+  /// Irradiance from one pixel, clipped at the horizon; adds it to `crossing` where that cuts it.
+  double Clipped(
+    const Vec3& normal, std::size_t layer, int row, int column, double& crossing) const;
   double Pixel(
     const Vec3& normal, const Row& row, double azimuth, double width, bool& whole) const;
   /// Value of a fine pixel in a layer.

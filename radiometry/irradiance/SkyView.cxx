@@ -91,12 +91,13 @@ SkyView::Sample SkyView::Draw(double u, double v) const
     inner > 0 ? std::max(0.0, Dot(n, t.SumOf(layer, row, span.Begin + span.Left, inner))) : 0.0;
   double across = v;
   double gets = 0.0; // irradiance from the pixel
+  double unused = 0.0;
   int column = 0;
   const int part = Choose(
     span.Left + 1 + span.Right,
     [&](int k) {
       const int c = k < span.Left ? k : k - 1 + std::max(inner, 0);
-      return k == span.Left ? middle : t.Clipped(n, 0, row, span.Begin + c);
+      return k == span.Left ? middle : t.Clipped(n, 0, row, span.Begin + c, unused);
     },
     *found - before, across);
   if (part == span.Left)
@@ -119,7 +120,7 @@ SkyView::Sample SkyView::Draw(double u, double v) const
   else
   {
     column = span.Begin + (part < span.Left ? part : part - 1 + std::max(inner, 0));
-    gets = t.Clipped(n, 0, row, column);
+    gets = t.Clipped(n, 0, row, column, unused);
   }
   column = t.Wrap(column);
   const double flux = layer.Flux[static_cast<std::size_t>(row) * t.Columns + column];
