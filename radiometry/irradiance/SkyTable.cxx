@@ -144,6 +144,7 @@ void SkyTable::FillAnalytic()
   Layer& layer = this->Layers[0];
   const double width = 2.0 * Pi / this->Columns;
   const double nearSun = std::cos(3.0 * width);
+  const double atSun = std::cos(1.2 * width); // a pixel that may hold the cusp of the indicatrix
   for (int r = 0; r < this->Rows; ++r)
   {
     const Row& row = this->Latitudes[r];
@@ -162,8 +163,8 @@ void SkyTable::FillAnalytic()
       }
       const double azimuth = (2.0 * (c + 0.5) / this->Columns - 1.0) * Pi;
       const Vec3 middle{ row.Cos * this->Sines[c], row.Cos * this->Cosines[c], row.Sin };
-      const LineRule& rule = GaussLegendre(
-        sky.Model() == SkyModel::General && Dot(middle, sky.ToSun()) > nearSun ? 16 : 3);
+      const double toSun = sky.Model() == SkyModel::General ? Dot(middle, sky.ToSun()) : -1.0;
+      const LineRule& rule = GaussLegendre(toSun > atSun ? 64 : (toSun > nearSun ? 16 : 4));
       for (std::size_t i = 0; i < rule.Nodes.size(); ++i)
       {
         const double s = row.SinBottom + rule.Nodes[i] * (row.SinTop - row.SinBottom);
@@ -456,7 +457,7 @@ double SkyTable::Irradiance(const Vec3& normal, double* bands) const
   // The share of the crossed pixels is known to the curvature of the horizon inside them, and to
   // the change of the radiance inside them; the Gauss points of the others lose little.
   const bool map = this->Sky().Model() == SkyModel::Map;
-  return (map ? 1e-12 : 3e-9) + (sum > 0.0 ? (map ? 1e-3 : 1.5e-2) * crossing / sum : 0.0);
+  return (map ? 1e-12 : 6e-10) + (sum > 0.0 ? (map ? 1e-3 : 1.5e-2) * crossing / sum : 0.0);
 }
 
 double HorizontalIrradiance(std::shared_ptr<const SkyRadiance> sky, int band)
