@@ -148,13 +148,22 @@ private:
       cluster, this->Clusters.Begin(cluster), this->Clusters.End(cluster), round, first);
   }
 
-  /// True when the patches are so far apart that those among them that are close to a light differ
-  /// much in which of many lights matter to them.
-  bool TooWide(const Box3& box) const
+  /// True when the patches are so far apart that they differ much in which of many lights matter to
+  /// them. Small clusters cost more for each light, so they must be much wider than their distance to
+  /// the lights, and the smallest hold patches that are so themselves.
+  bool TooWide(const Box3& box, std::size_t count) const
   {
     constexpr std::size_t many = 32;
-    return this->Lights.Size() > many &&
-      Length(box.Size()) > 2.0 * this->Lights.Tree.Nearest(box.Center());
+    constexpr std::size_t few = 16;
+    constexpr std::size_t least = 4;
+    if (this->Lights.Size() <= many || count <= least)
+    {
+      return false;
+    }
+    const double nearest = this->Lights.Tree.Nearest(box.Center());
+    const double width = Length(box.Size());
+    return count > few ? width > 2.0 * nearest
+                       : width > 2.0 * nearest * std::sqrt(static_cast<double>(count));
   }
 
   bool Compute(std::size_t cluster, const std::uint32_t* ids, const std::uint32_t* end,
@@ -163,8 +172,7 @@ private:
     Worker& worker = *this->Blocks.local();
     PatchBlock& block = worker.Block;
     block.Load(ids, end);
-    constexpr std::ptrdiff_t few = 16;
-    if (end - ids > few && this->TooWide(block.Bounds().Box))
+    if (this->TooWide(block.Bounds().Box, block.Size()))
     {
       const std::uint32_t* middle = ids + (end - ids) / 2;
       const bool before = this->Compute(cluster, ids, middle, round, first);

@@ -255,7 +255,9 @@ bool LightSum::Sample(ReceiverBlock& block, const ReceiverBounds& bounds,
     }
     // The error of systematic samples falls at least with the root of their number.
     const double wanted = 1.2 * static_cast<double>(samples) * excess * excess;
-    if (!(wanted < static_cast<double>(std::min(MostSamples, left / 2))))
+    // Many more than were asked so far: asking the next strongest leaves less to estimate.
+    const std::size_t most = std::min({ MostSamples, left / 2, 8 * std::max(LeastSamples, asked) });
+    if (!(wanted < static_cast<double>(most)))
     {
       return false;
     }
