@@ -11,7 +11,7 @@ namespace radiometry
 namespace
 {
 
-constexpr std::int32_t LeafSize = 4;
+constexpr std::int32_t LeafSize = BoxTree::LeafSize;
 /// Smaller parts are not worth a task.
 constexpr std::int32_t TaskSize = 8192;
 

@@ -101,6 +101,7 @@ public:
   };
   std::size_t Size() const { return this->Nodes.size(); }
   const Node& At(std::int32_t node) const { return this->Nodes[node]; }
+  static constexpr std::int32_t LeafSize = 4; // items in a leaf, at most
   /// The items in the order of the leaves: neighbours in space are neighbours in it. A leaf holds
   /// [First, First + Count).
   const std::vector<std::int32_t>& Order() const { return this->Items; }

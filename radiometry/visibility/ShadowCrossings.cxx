@@ -87,6 +87,42 @@ bool CrossingLine(const Triangle3& receiver, const Vec3& n, const Triangle3& oth
   return (hi - lo) * std::sqrt(LengthSquared(line.B - line.A)) > 32.0 * rounding;
 }
 
+/// The triangles of a leaf, gathered.
+struct Leaf
+{
+  static constexpr int Most = BoxTree::LeafSize;
+  std::int32_t Node = -1;
+  int Count = 0;
+  std::int32_t Id[Most];
+  Triangle3 Triangles[Most];
+  Box3 Boxes[Most];
+  Vec3 Normals[Most]; // unit
+
+  void Load(const Scene& scene, const BoxTree& tree, std::int32_t node)
+  {
+    if (node == this->Node)
+    {
+      return;
+    }
+    this->Node = node;
+    this->Count = tree.At(node).Count;
+    for (int k = 0; k < this->Count; ++k)
+    {
+      this->Id[k] = tree.Order()[tree.At(node).First + k];
+      this->Triangles[k] = scene.TriangleAt(this->Id[k]);
+      this->Boxes[k] = {};
+      for (const Vec3& p : this->Triangles[k])
+      {
+        this->Boxes[k].Add(p);
+      }
+      const Vec3 area2 = AreaNormal2(this->Triangles[k]);
+      const double l2 = LengthSquared(area2);
+      this->Normals[k] =
+        l2 > 1e-280 && l2 < 1e280 ? area2 / std::sqrt(l2) : Normalized(area2);
+    }
+  }
+};
+
 } // namespace
 
 /// True when a surface that stands on a plane with this edge goes on beyond the plane: then it may be
@@ -135,15 +171,15 @@ void ShadowLines::FindCrossings(
     Segment3 Line;
   };
   std::vector<std::vector<Found>> found(parts.size());
-  const auto boxOf = [&](std::int32_t t) {
-    Box3 box;
-    for (const std::int32_t p : scene.Triangles[t])
-    {
-      box.Add(scene.Points[p]);
-    }
-    return box;
-  };
   const auto search = [&](std::size_t part) {
+    Leaf receivers; // kept while the search goes through what may cut them
+    // Of the others each is met some ten times, by neighbours one after the other.
+    constexpr std::int32_t kept = 256;
+    static thread_local std::vector<Leaf> cache(kept);
+    for (Leaf& leaf : cache)
+    {
+      leaf.Node = -1; // of another scene, maybe
+    }
     const auto pair = [&](const auto& self, std::int32_t a, std::int32_t b) -> void {
       const BoxTree::Node& na = tree.At(a);
       const BoxTree::Node& nb = tree.At(b);
@@ -165,24 +201,26 @@ void ShadowLines::FindCrossings(
         self(self, a, nb.First);
         return;
       }
-      for (std::int32_t i = na.First; i < na.First + na.Count; ++i)
+      receivers.Load(scene, tree, a);
+      Leaf& others = cache[b / 2 % kept];
+      others.Load(scene, tree, b);
+      for (int i = 0; i < receivers.Count; ++i)
       {
-        const std::int32_t r = tree.Order()[i];
+        const std::int32_t r = receivers.Id[i];
         if (static_cast<std::size_t>(r) >= scene.ReceiverTriangles)
         {
           continue;
         }
-        const Triangle3 receiver = scene.TriangleAt(r);
-        const Box3 mine = boxOf(r);
-        const Vec3 n = Normalized(AreaNormal2(receiver));
-        for (std::int32_t j = nb.First; j < nb.First + nb.Count; ++j)
+        const Vec3& n = receivers.Normals[i];
+        for (int j = 0; j < others.Count; ++j)
         {
-          const std::int32_t t = tree.Order()[j];
+          const std::int32_t t = others.Id[j];
           Segment3 line;
           int foot = -1;
-          if (t != r && Overlap(mine, boxOf(t)) &&
-            CrossingLine(receiver, n, scene.TriangleAt(t), this->Rounding, foot, line) &&
-            (foot < 0 || this->GoesOn(scene, receiver[0], n, 3 * t + foot)))
+          if (t != r && Overlap(receivers.Boxes[i], others.Boxes[j]) &&
+            CrossingLine(
+              receivers.Triangles[i], n, others.Triangles[j], this->Rounding, foot, line) &&
+            (foot < 0 || this->GoesOn(scene, receivers.Triangles[i][0], n, 3 * t + foot)))
           {
             found[part].push_back({ r, line });
           }
