@@ -6,6 +6,7 @@
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/SceneBuilder.h"
+#include "radiometry/visibility/LightsOnSurfaces.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -189,6 +190,23 @@ bool ReadTransform(vtkDataObject* data, const std::string& name, radiometry::Aff
   return true;
 }
 
+/// How far rounding to single precision may have moved points; 0 where they are in double.
+double SinglePrecision(vtkPolyData* data)
+{
+  if (!data->GetPoints() || data->GetPoints()->GetDataType() != VTK_FLOAT)
+  {
+    return 0.0;
+  }
+  double bounds[6];
+  data->GetBounds(bounds);
+  double largest = 0.0;
+  for (const double b : bounds)
+  {
+    largest = std::max(largest, std::fabs(b));
+  }
+  return 0.5 * std::numeric_limits<float>::epsilon() * largest;
+}
+
 } // namespace
 
 void SceneAdapter::SetFrames(const radiometry::Affine& object, const radiometry::ViewFrame& view)
@@ -297,5 +315,14 @@ radiometry::Scene SceneAdapter::Build()
           this->MetersPerUnit, scene.Origin, scene.Lights.size()));
     }
   }
+  double rounding = 0.0;
+  for (const std::vector<Block>* blocks : { &this->Surface, &this->Occluders })
+  {
+    for (const Block& block : *blocks)
+    {
+      rounding = std::max(rounding, SinglePrecision(block.Data) * this->MetersPerUnit);
+    }
+  }
+  radiometry::BringLightsForward(scene, rounding);
   return scene;
 }

@@ -8,7 +8,12 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
-from vtkradiometry import vtkAreaLightSource, vtkIrradianceFilter, vtkRadiosityFilter
+from vtkradiometry import (
+    vtkAreaLightSource,
+    vtkIrradianceFilter,
+    vtkRadiosityFilter,
+    vtkSpotLightSource,
+)
 
 K = 683.002
 WATT_M2, WATT, RADIANCE, LUMEN_M2, LUMEN, LUMINANCE = range(6)
@@ -202,6 +207,34 @@ def test_panel_in_a_ceiling_is_not_hidden_by_it():
         f.AddInputDataObject(2, ceiling)
         close(cell_values(f, "Irradiance"),
               cell_values(lit(plane(1.0), polygon(corners)), "Irradiance"), 1e-12)
+
+
+def test_lights_at_a_ceiling_in_single_precision():
+    """2.8 m is 2.79999995 m in single precision: a panel or spot at 2.8 m would lie behind it."""
+    ceiling = vtkPlaneSource()
+    ceiling.SetOrigin(-2, -2, 2.8)
+    ceiling.SetPoint1(-2, 2, 2.8)
+    ceiling.SetPoint2(2, -2, 2.8)
+    ceiling.SetResolution(3, 3)
+    ceiling.Update()
+    assert ceiling.GetOutput().GetPoint(0)[2] < 2.8
+    panel = made(Position=(0, 0, 2.8), Width=1.2, Height=0.3, Intensity=100.0)
+    panel.Update()
+    spot = vtkSpotLightSource()
+    spot.SetPosition(0.3, 0.1, 2.8)
+    spot.Update()
+    for light in (panel.GetOutput(), spot.GetOutput()):
+        bare = cell_values(lit(plane(2.0, 4), light), "Irradiance")
+        f = lit(plane(2.0, 4), light)
+        f.AddInputDataObject(2, ceiling.GetOutput())
+        assert bare.min() > 0.0
+        close(cell_values(f, "Irradiance"), bare, 1e-6)
+    # A light truly above the ceiling stays there.
+    above = made(Position=(0, 0, 2.80001), Width=1.2, Height=0.3, Intensity=100.0)
+    above.Update()
+    f = lit(plane(2.0, 4), above.GetOutput())
+    f.AddInputDataObject(2, ceiling.GetOutput())
+    assert (cell_values(f, "Irradiance") == 0.0).all()
 
 
 def test_bad_data_is_named():
