@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Area lights where digits run out: lights of next to no width, points of a closed box with a panel
-1e-9 of its size outside."""
+"""Area lights where digits run out: lights of next to no width."""
 from math import pi
 
 import numpy as np
-from hardcases import POINTS, Run, area, box, polydata, rotation, run_all, sensors
-
-SQUARE = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
-DOWN = SQUARE[::-1]
+from hardcases import Run, area, rotation, run_all, sensors
 
 
 def test_thin_lights():
@@ -27,24 +23,6 @@ def test_thin_lights():
             allowed = run.error[:, 0] + known * np.array(exact)
             assert (np.abs(run.e[:, 0] - exact) <= allowed).all(), (width, run.e, exact, run.error)
             assert (run.error[:, 0] <= 1e-13 / width * np.array(exact)).all(), (width, run.error)
-
-
-def test_points_of_closed_boxes_stay_dark():
-    rng = np.random.default_rng(3)
-    for seed in (0, 4, 5):
-        turn = rotation(seed)
-        for n in (1, 4):
-            p, q = box(inward=True, n=n)
-            data = polydata(p @ turn.T, q)
-            for gap in (1e-4, 1e-9):
-                x, y = rng.uniform(0, 0.5, 2)
-                for corners in (DOWN * 0.5 + (x, y, -gap), DOWN * 3 + (-1, -1, 1 + gap),
-                                [(1 + gap, x, y), (1 + gap, x, y + 0.4), (1 + gap, x + 0.4, y)],
-                                [(1 + gap, 1 + gap, 0), (1 + gap, 1 + gap, 1), (2, 2, 0.5)],
-                                [(-gap, -0.5, 0.2), (-gap, 1.5, 0.2), (-gap, 1.5, 0.8)]):
-                    for location in (0, POINTS):
-                        run = Run(data, area(corners, 1.0, True).moved(turn), SampleLocation=location)
-                        assert (run.e == 0).all(), (seed, n, gap, location, run.e.max())
 
 
 run_all(globals())
