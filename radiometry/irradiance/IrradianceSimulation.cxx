@@ -216,6 +216,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
         middle + (0.98 - middle) * (side + 1) / sides, "direct light at points" },
       side == 0 ? &result.Convergence : nullptr);
     peak = std::max(peak, r.PeakUnshadowed);
+    timedOut = timedOut || r.TimedOut;
     rays += r.Rays;
     result.DroppedPeak = std::max(result.DroppedPeak, r.DroppedPeak);
     result.DroppedMean = std::max(result.DroppedMean, r.DroppedMean);
