@@ -34,6 +34,31 @@ struct Box3
   bool Empty() const { return this->Min.x > this->Max.x; }
   Vec3 Center() const { return 0.5 * (this->Min + this->Max); }
   Vec3 Size() const { return this->Max - this->Min; }
+
+  /// Narrows [begin, end] to the part of the ray start + s direction inside the box, widened by
+  /// `margin`; false when there is none.
+  bool Cut(const Vec3& start, const Vec3& direction, double margin, double& begin, double& end) const
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      const double lo = this->Min[a] - margin - start[a];
+      const double hi = this->Max[a] + margin - start[a];
+      if (direction[a] == 0.0)
+      {
+        if (lo > 0.0 || hi < 0.0)
+        {
+          return false;
+        }
+        continue;
+      }
+      const double inverse = 1.0 / direction[a];
+      const double s = lo * inverse;
+      const double t = hi * inverse;
+      begin = s < t ? (s > begin ? s : begin) : (t > begin ? t : begin);
+      end = s < t ? (t < end ? t : end) : (s < end ? s : end);
+    }
+    return begin <= end;
+  }
 };
 
 /// A bounding volume hierarchy over boxes, in double: for conservative searches that single

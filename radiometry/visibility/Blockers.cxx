@@ -216,27 +216,18 @@ bool Blockers::Cuts(std::int32_t t, const ConvexPolygon& polygon) const
   {
     return false;
   }
-  double lo = 0.0;
-  double hi = 1.0;
+  SegmentPart part;
   for (int k = 0; k < polygon.N; ++k)
   {
     const Vec3 inward = Normalized(Cross(n, polygon.P[(k + 1) % polygon.N] - polygon.P[k]));
     const double a = Dot(inward, cut.A - polygon.P[k]) - this->Tolerance;
     const double b = Dot(inward, cut.B - polygon.P[k]) - this->Tolerance;
-    if (a <= 0.0 && b <= 0.0)
+    if (!part.Keep(a, b))
     {
       return false;
     }
-    if (a <= 0.0)
-    {
-      lo = std::max(lo, a / (a - b));
-    }
-    else if (b <= 0.0)
-    {
-      hi = std::min(hi, a / (a - b));
-    }
   }
-  return lo < hi;
+  return part.Any();
 }
 
 bool Blockers::Covers(

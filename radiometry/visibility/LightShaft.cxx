@@ -24,26 +24,17 @@ constexpr double LeastCosine = 0.17;
 
 bool LightShaft::Touches(const Segment3& s) const
 {
-  double lo = 0.0;
-  double hi = 1.0;
+  SegmentPart part;
   for (int k = 0; k < this->Planes; ++k)
   {
     const double a = Dot(this->Normal[k], s.A) + this->Offset[k];
     const double b = Dot(this->Normal[k], s.B) + this->Offset[k];
-    if (a <= 0.0 && b <= 0.0)
+    if (!part.Keep(a, b))
     {
       return false;
     }
-    if (a <= 0.0)
-    {
-      lo = std::max(lo, a / (a - b));
-    }
-    else if (b <= 0.0)
-    {
-      hi = std::min(hi, a / (a - b));
-    }
   }
-  return lo < hi;
+  return part.Any();
 }
 
 LightShaft LightShaft::OfTriangle(const Triangle3& t, const Light& light, double tolerance)

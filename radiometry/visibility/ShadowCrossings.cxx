@@ -63,28 +63,19 @@ bool CrossingLine(const Triangle3& receiver, const Vec3& n, const Triangle3& oth
   }
   line = { ends[0], ends[1] };
   // Within the receiver's sides, a little outside included; a mere point (a common corner) is none.
-  double lo = 0.0;
-  double hi = 1.0;
+  SegmentPart part;
   for (int k = 0; k < 3; ++k)
   {
     const Vec3 side = receiver[(k + 1) % 3] - receiver[k];
     const Vec3 inward = Cross(n, side) / std::sqrt(LengthSquared(side));
     const double a = Dot(inward, line.A - receiver[k]) + 4.0 * rounding;
     const double b = Dot(inward, line.B - receiver[k]) + 4.0 * rounding;
-    if (a <= 0.0 && b <= 0.0)
+    if (!part.Keep(a, b))
     {
       return false;
     }
-    if (a <= 0.0)
-    {
-      lo = std::max(lo, a / (a - b));
-    }
-    else if (b <= 0.0)
-    {
-      hi = std::min(hi, a / (a - b));
-    }
   }
-  return (hi - lo) * std::sqrt(LengthSquared(line.B - line.A)) > 32.0 * rounding;
+  return (part.End - part.Begin) * std::sqrt(LengthSquared(line.B - line.A)) > 32.0 * rounding;
 }
 
 /// The triangles of a leaf, gathered.

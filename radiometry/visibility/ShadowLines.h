@@ -5,6 +5,7 @@
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Scene.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -17,6 +18,32 @@ struct Segment3
 {
   Vec3 A;
   Vec3 B;
+};
+
+/// The part of a segment that lies inside half-spaces, as shares of its length from A to B.
+struct SegmentPart
+{
+  double Begin = 0.0;
+  double End = 1.0;
+
+  /// Keeps what lies where a height is positive that is `a` at A and `b` at B; false: nothing.
+  bool Keep(double a, double b)
+  {
+    if (a <= 0.0 && b <= 0.0)
+    {
+      return false;
+    }
+    if (a <= 0.0)
+    {
+      this->Begin = std::max(this->Begin, a / (a - b));
+    }
+    else if (b <= 0.0)
+    {
+      this->End = std::min(this->End, a / (a - b));
+    }
+    return true;
+  }
+  bool Any() const { return this->Begin < this->End; }
 };
 
 /// Every line at which the shadow of a scene's surface can begin or end, whatever the light: the

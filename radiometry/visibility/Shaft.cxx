@@ -156,26 +156,17 @@ bool Shaft::Touches(const Triangle3& triangle) const
 
 bool Shaft::Touches(const Segment3& s) const
 {
-  double lo = 0.0;
-  double hi = 1.0;
+  SegmentPart part;
   for (int k = 0; k < this->Planes; ++k)
   {
     const double a = Dot(this->Normals[k], s.A) + this->Offsets[k];
     const double b = Dot(this->Normals[k], s.B) + this->Offsets[k];
-    if (a <= 0.0 && b <= 0.0)
+    if (!part.Keep(a, b))
     {
       return false;
     }
-    if (a <= 0.0)
-    {
-      lo = std::max(lo, a / (a - b));
-    }
-    else if (b <= 0.0)
-    {
-      hi = std::min(hi, a / (a - b));
-    }
   }
-  return lo < hi;
+  return part.Any();
 }
 
 } // namespace radiometry

@@ -37,25 +37,9 @@ bool SameSheet(const RayQuery& ray, const Crossing& a, const Crossing& b)
 /// True when the part of the ray up to its length reaches the box.
 bool Reaches(const RayQuery& ray, const Box3& box)
 {
-  double lo = 0.0;
-  double hi = ray.Length;
-  for (int k = 0; k < 3; ++k)
-  {
-    const double d = ray.Direction[k];
-    const double l = box.Min[k] - 1e-12 - ray.Start[k];
-    const double h = box.Max[k] + 1e-12 - ray.Start[k];
-    if (d == 0.0)
-    {
-      if (l > 0.0 || h < 0.0)
-      {
-        return false;
-      }
-      continue;
-    }
-    lo = std::max(lo, std::min(l / d, h / d));
-    hi = std::min(hi, std::max(l / d, h / d));
-  }
-  return lo <= hi;
+  double begin = 0.0;
+  double end = ray.Length;
+  return box.Cut(ray.Start, ray.Direction, 1e-12, begin, end);
 }
 
 /// Whether a ray that crosses the triangle's plane does so inside it, rim included.

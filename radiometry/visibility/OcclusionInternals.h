@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/geometry/BoxTree.h"
+#include "radiometry/visibility/ExactHit.h"
+#include "radiometry/visibility/OcclusionScene.h"
+#include "radiometry/visibility/ShadowLines.h"
+#include "radiometry/visibility/Transmission.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <memory>
+#include <mutex>
+
+namespace radiometry
+{
+
+/// What an OcclusionScene is made of, in coordinates scaled to the unit box. Rays are made in
+/// OcclusionExact.cxx, where what single precision cannot decide is decided, too; Embree is asked in
+/// OcclusionRays.cxx.
+struct OcclusionScene::Internals
+{
+  Vec3 Center;
+  double Scale = 1.0;
+  Box3 Bounds; // of the scaled triangles
+  std::vector<Triangle3> Triangles;
+  std::vector<Vec3> Normals; // unit
+  BoxTree Tree;
+  RTCScene Handle = nullptr;
+  std::once_flag LinesFlag;
+  std::unique_ptr<ShadowLines> Lines;
+  int Bands = 1;
+  std::unique_ptr<Transmission> Panes; // null: all is opaque
+
+  ~Internals()
+  {
+    if (this->Handle)
+    {
+      rtcReleaseScene(this->Handle);
+    }
+  }
+
+  Vec3 ToBox(const Vec3& p) const { return this->Scale * (p - this->Center); }
+
+  /// The part of the ray inside the scene's box, or false when it passes by.
+  bool Clip(const RayQuery& q, double& begin, double& end) const;
+  /// Everything in double: for the rare ray that single precision cannot decide.
+  SurfaceHit ExactClosest(const RayQuery& q, double begin, double end) const;
+  /// True when `p`, on triangle t, is close to the triangle's rim.
+  bool NearRim(const Vec3& p, std::int32_t t) const;
+  /// True when single precision cannot keep the ray on its side of the triangle's plane.
+  bool Grazes(const Vec3& direction, std::int32_t t) const;
+  /// Side, distance and barycentric coordinates of a hit, in double.
+  void Complete(const RayQuery& q, SurfaceHit& hit) const;
+  RayQuery MakeQuery(const RayEnd& from, const Vec3& direction) const;
+  RayQuery MakeQuery(const RayEnd& from, const RayEnd& to) const;
+
+  bool Occluded(RayQuery q) const;
+  /// What gets through along the ray, a share a band.
+  bool Visible(RayQuery q, double* bands) const;
+  /// Rays of neighbours, sixteen at a time.
+  static constexpr std::size_t PacketSize = 16;
+  void OccludedPacket(RayQuery* queries, std::size_t count, std::uint8_t* hidden) const;
+  SurfaceHit Closest(RayQuery q) const;
+};
+
+} // namespace radiometry
