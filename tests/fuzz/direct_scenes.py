@@ -71,7 +71,7 @@ def beam(rng):
     if kind == 4:
         return luminaire(p, *LOPSIDED, intensity, d, rng.normal(size=3))
     if kind == 1:
-        return spot(p, d, rng.choice([5.0, 30.0, 60.0, 90.0]), rng.choice([0.0, 1.0, 7.5]), intensity)
+        return spot(p, d, rng.choice([20.0, 30.0, 60.0, 90.0]), rng.choice([0.0, 1.0, 7.5]), intensity)
     if kind == 2:
         cutoff = rng.uniform(20, 80)
         return spot(p, d, cutoff, rng.choice([0.0, 2.0]), intensity,
