@@ -281,7 +281,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
     // Errors fall with about the power 5/8 of the rays.
     const double wanted = 1.2 * spent[i] * std::pow(excess, 1.6);
     int next = 2 * spent[i];
-    while (next < limit && next < wanted && next < 32 * spent[i])
+    while (next < limit && next < wanted && next < 8 * spent[i])
     {
       next *= 2;
     }

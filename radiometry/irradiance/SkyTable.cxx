@@ -310,11 +310,9 @@ Vec3 SkyTable::SumOf(const Layer& layer, int row, int begin, int count) const
 }
 
 /// Mean cosine over a pixel, clipped at the horizon; `whole`: the horizon does not cross it.
-double SkyTable::Pixel(
-  const Vec3& n, const Row& row, double azimuth, double width, bool& whole) const
+double SkyTable::Pixel(const Vec3& n, const Row& row, double sine, double cosine, double width,
+  bool& whole) const
 {
-  const double sine = std::sin(azimuth);
-  const double cosine = std::cos(azimuth);
   const double out = n.x * sine + n.y * cosine;
   const double across = n.x * cosine - n.y * sine;
   const double middle = (n.z * row.Up + out * row.Out) / row.SolidAngle;
@@ -336,7 +334,6 @@ double SkyTable::Clipped(
   const int c = this->Wrap(column);
   if (this->FineRows * this->FineColumns == 1)
   {
-    const double azimuth = (2.0 * (c + 0.5) / this->Columns - 1.0) * Pi;
     const double flux = this->Layers[layer].Flux[static_cast<std::size_t>(row) * this->Columns + c];
     if (!(flux > 0.0))
     {
@@ -344,7 +341,8 @@ double SkyTable::Clipped(
     }
     bool whole = false;
     const double mean =
-      this->Pixel(n, this->Latitudes[row], azimuth, 2.0 * Pi / this->Columns, whole);
+      this->Pixel(n, this->Latitudes[row], this->Sines[c], this->Cosines[c],
+        2.0 * Pi / this->Columns, whole);
     if (whole)
     {
       return std::max(0.0, Dot(n, this->SumOf(this->Layers[layer], row, c, 1)));
@@ -367,7 +365,8 @@ double SkyTable::Clipped(
         const double azimuth = (2.0 * (k + 0.5) / columns - 1.0) * Pi;
         bool whole = false;
         const double part =
-          value * fine.SolidAngle * this->Pixel(n, fine, azimuth, 2.0 * Pi / columns, whole);
+          value * fine.SolidAngle *
+          this->Pixel(n, fine, std::sin(azimuth), std::cos(azimuth), 2.0 * Pi / columns, whole);
         crossing += whole ? 0.0 : part;
         sum += part;
       }

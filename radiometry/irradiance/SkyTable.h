@@ -75,8 +75,9 @@ private:
   /// Irradiance from one pixel, clipped at the horizon; adds it to `crossing` where that cuts it.
   double Clipped(
     const Vec3& normal, std::size_t layer, int row, int column, double& crossing) const;
-  double Pixel(
-    const Vec3& normal, const Row& row, double azimuth, double width, bool& whole) const;
+  /// Mean cosine over a pixel at an azimuth of that sine and cosine.
+  double Pixel(const Vec3& normal, const Row& row, double sine, double cosine, double width,
+    bool& whole) const;
   /// Value of a fine pixel in a layer.
   double Fine(std::size_t layer, int row, int column) const;
   int Wrap(int column) const
@@ -136,6 +137,9 @@ private:
   bool Even = false; // the same radiance from everywhere
   std::vector<double> Cumulative; // of the rows' strengths
   std::vector<SkyTable::Span> Spans;
+  std::vector<double> Edges;      // irradiance from the first and last pixels of each row's span
+  std::vector<std::size_t> First; // of each row among them
+  std::vector<double> Inner;      // irradiance from the others of each row
 };
 
 } // namespace radiometry

@@ -51,12 +51,28 @@ void SkyView::Look(const SkyTable& table, const Vec3& normal)
     this->Cumulative.assign(1, units::Pi * table.TotalIntensity());
     return;
   }
+  this->Edges.clear();
+  this->First.clear();
+  this->Inner.clear();
   double sum = 0.0;
-  double crossing = 0.0;
+  double unused = 0.0;
   for (int r = 0; r < table.Rows; ++r)
   {
-    this->Spans.push_back(table.Visible(this->Normal, r));
-    sum += table.RowIrradiance(this->Normal, 0, r, this->Spans.back(), crossing);
+    const SkyTable::Span span = table.Visible(this->Normal, r);
+    this->Spans.push_back(span);
+    this->First.push_back(this->Edges.size());
+    const int inner = span.Count - span.Left - span.Right;
+    this->Inner.push_back(inner > 0
+        ? std::max(0.0,
+            Dot(this->Normal, table.SumOf(table.Layers[0], r, span.Begin + span.Left, inner)))
+        : 0.0);
+    sum += this->Inner.back();
+    for (int k = 0; k < span.Left + span.Right; ++k)
+    {
+      const int column = k < span.Left ? k : k + std::max(inner, 0);
+      this->Edges.push_back(table.Clipped(this->Normal, 0, r, span.Begin + column, unused));
+      sum += this->Edges.back();
+    }
     this->Cumulative.push_back(sum);
   }
 }
@@ -87,40 +103,45 @@ SkyView::Sample SkyView::Draw(double u, double v) const
   const SkyTable::Span& span = this->Spans[row];
   const SkyTable::Layer& layer = t.Layers[0];
   const int inner = span.Count - span.Left - span.Right;
-  const double middle =
-    inner > 0 ? std::max(0.0, Dot(n, t.SumOf(layer, row, span.Begin + span.Left, inner))) : 0.0;
+  const double middle = this->Inner[row];
+  const double* edges = this->Edges.data() + this->First[row];
   double across = v;
   double gets = 0.0; // irradiance from the pixel
-  double unused = 0.0;
   int column = 0;
   const int part = Choose(
     span.Left + 1 + span.Right,
     [&](int k) {
-      const int c = k < span.Left ? k : k - 1 + std::max(inner, 0);
-      return k == span.Left ? middle : t.Clipped(n, 0, row, span.Begin + c, unused);
+      return k == span.Left ? middle : edges[k < span.Left ? k : k - 1];
     },
     *found - before, across);
   if (part == span.Left)
   {
+    // The sums grow nearly evenly: guess, then close in from both sides.
     int low = 0;
     int high = inner;
     double reached = 0.0;
     double next = middle;
-    while (high - low > 1)
+    const double wanted = across * middle;
+    for (int step = 0; high - low > 1; ++step)
     {
-      const int half = (low + high) / 2;
-      const double sum = Dot(n, t.SumOf(layer, row, span.Begin + span.Left, half));
-      (sum <= across * middle ? low : high) = half;
-      (sum <= across * middle ? reached : next) = sum;
+      int at = (low + high) / 2;
+      if (step < 3 && next > reached)
+      {
+        at = low + static_cast<int>((wanted - reached) / (next - reached) * (high - low));
+        at = std::clamp(at + (step == 1 ? 1 : 0), low + 1, high - 1);
+      }
+      const double sum = Dot(n, t.SumOf(layer, row, span.Begin + span.Left, at));
+      (sum <= wanted ? low : high) = at;
+      (sum <= wanted ? reached : next) = sum;
     }
     gets = next - reached;
     column = span.Begin + span.Left + low;
-    across = gets > 0.0 ? std::clamp((across * middle - reached) / gets, 0.0, 1.0 - 0x1p-53) : 0.5;
+    across = gets > 0.0 ? std::clamp((wanted - reached) / gets, 0.0, 1.0 - 0x1p-53) : 0.5;
   }
   else
   {
     column = span.Begin + (part < span.Left ? part : part - 1 + std::max(inner, 0));
-    gets = t.Clipped(n, 0, row, column, unused);
+    gets = edges[part < span.Left ? part : part - 1];
   }
   column = t.Wrap(column);
   const double flux = layer.Flux[static_cast<std::size_t>(row) * t.Columns + column];

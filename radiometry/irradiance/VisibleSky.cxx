@@ -35,21 +35,35 @@ public:
   /// `density` row by row; any scale.
   void Build(int levels, const std::vector<double>& density)
   {
-    this->Levels.resize(static_cast<std::size_t>(levels) + 1);
-    this->Levels[levels] = density;
+    this->Depth = levels;
+    this->Density = density;
+    this->Total = 0.0;
+    for (const double d : density)
+    {
+      this->Total += d;
+    }
+    this->Nodes.resize(static_cast<std::size_t>(levels));
+    std::vector<double> finer = density;
     for (int l = levels - 1; l >= 0; --l)
     {
       const int n = 1 << l;
-      std::vector<double>& sums = this->Levels[l];
-      const std::vector<double>& finer = this->Levels[l + 1];
-      sums.assign(static_cast<std::size_t>(n) * n, 0.0);
-      for (int i = 0; i < 2 * n; ++i)
+      std::vector<double> sums(static_cast<std::size_t>(n) * n);
+      std::vector<Node>& nodes = this->Nodes[l];
+      nodes.resize(sums.size());
+      for (int i = 0; i < n; ++i)
       {
-        for (int j = 0; j < 2 * n; ++j)
+        for (int j = 0; j < n; ++j)
         {
-          sums[static_cast<std::size_t>(i / 2) * n + j / 2] += finer[i * 2 * n + j];
+          const double* top = &finer[static_cast<std::size_t>(2 * i) * 2 * n + 2 * j];
+          const double* bottom = top + 2 * n;
+          const std::size_t k = static_cast<std::size_t>(i) * n + j;
+          nodes[k].Rows = Split(top[0] + top[1], bottom[0] + bottom[1]);
+          nodes[k].Columns[0] = Split(top[0], top[1]);
+          nodes[k].Columns[1] = Split(bottom[0], bottom[1]);
+          sums[k] = top[0] + top[1] + bottom[0] + bottom[1];
         }
       }
+      finer.swap(sums);
     }
   }
 
@@ -58,19 +72,15 @@ public:
   {
     int i = 0;
     int j = 0;
-    for (std::size_t l = 1; l < this->Levels.size(); ++l)
+    for (int l = 0; l < this->Depth; ++l)
     {
-      const int n = 1 << l;
-      const double* at = &this->Levels[l][static_cast<std::size_t>(2 * i) * n + 2 * j];
-      const double top = at[0] + at[1];
-      const double bottom = at[n] + at[n + 1];
-      const int lower = Halve(u, top / (top + bottom));
-      const double* row = at + lower * n;
-      const int right = Halve(v, row[0] / (row[0] + row[1]));
+      const Node& node = this->Nodes[l][(static_cast<std::size_t>(i) << l) + j];
+      const int lower = node.Rows.Halve(u);
+      const int right = node.Columns[lower].Halve(v);
       i = 2 * i + lower;
       j = 2 * j + right;
     }
-    const int n = 1 << (this->Levels.size() - 1);
+    const int n = 1 << this->Depth;
     u = (i + u) / n;
     v = (j + v) / n;
     return i * n + j;
@@ -79,23 +89,39 @@ public:
   /// The mean weight of a sample of that square: 1 where the density is even.
   double Weight(int square) const
   {
-    const std::vector<double>& finest = this->Levels.back();
-    return this->Levels[0][0] / (finest[square] * static_cast<double>(finest.size()));
+    return this->Total / (this->Density[square] * static_cast<double>(this->Density.size()));
   }
 
 private:
-  static int Halve(double& x, double share)
+  /// Shares of two neighbours; none is 0.
+  struct Split
   {
-    if (x < share)
-    {
-      x = std::min(x / share, 1.0 - 0x1p-53);
-      return 0;
-    }
-    x = std::min((x - share) / (1.0 - share), 1.0 - 0x1p-53);
-    return 1;
-  }
+    double First = 0.5;
+    double Stretch[2] = { 2.0, 2.0 };
 
-  std::vector<std::vector<double>> Levels;
+    Split() = default;
+    Split(double a, double b)
+      : First(a / (a + b))
+      , Stretch{ (a + b) / a, (a + b) / b }
+    {
+    }
+    int Halve(double& x) const
+    {
+      const int which = x < this->First ? 0 : 1;
+      x = std::min((which == 0 ? x : x - this->First) * this->Stretch[which], 1.0 - 0x1p-53);
+      return which;
+    }
+  };
+  struct Node
+  {
+    Split Rows;
+    Split Columns[2]; // of the upper and the lower half
+  };
+
+  int Depth = 0;
+  double Total = 1.0;
+  std::vector<double> Density;
+  std::vector<std::vector<Node>> Nodes; // level by level, row by row
 };
 
 /// What one ray found.

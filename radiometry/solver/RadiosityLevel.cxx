@@ -50,13 +50,30 @@ ExchangeOptions RadiosityContext::Sight() const
   return o;
 }
 
+namespace
+{
+
+/// What reflection adds everywhere, dim places too, as a share of the mean direct light: some
+/// rho/(1 - rho) where little is lost, of which three quarters are counted on.
+double ReflectedShare(const Materials& optics)
+{
+  const std::vector<double>& reflectance = optics.DiffuseReflectance[0];
+  double mean = 0.0;
+  for (const double r : reflectance)
+  {
+    mean += r / static_cast<double>(reflectance.size());
+  }
+  return mean < 0.5 ? 0.75 * mean / (1.0 - mean) : 0.75;
+}
+
+} // namespace
+
 DirectOptions RadiosityContext::Direct(double secondsLeft) const
 {
   DirectOptions o;
   o.RelativeTolerance = 0.5 * this->Options.RelativeTolerance;
   o.AbsoluteTolerance = 0.5 * this->Options.AbsoluteTolerance;
-  // What is reflected comes on top, and reaches dim places too.
-  o.MeanShare = this->Options.Interreflection ? 0.25 : 0.0;
+  o.MeanShare = this->Options.Interreflection ? ReflectedShare(this->Geometry.Optics) : 0.0;
   o.SecondsLeft = this->Options.TimeBudget > 0.0 ? std::max(1e-3, 0.5 * secondsLeft) : 0.0;
   o.Occlusion = this->Options.Occlusion;
   o.SpotShape = this->Options.SpotShape;
