@@ -2,6 +2,7 @@
 #include "radiometry/geometry/PolygonTriangulation.h"
 
 #include "radiometry/geometry/ConvexPolygon.h"
+#include "radiometry/geometry/PolygonTriangles.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/scene/InputError.h"
 
@@ -20,18 +21,12 @@ struct Corner
 {
   double u = 0.0; // in the polygon's plane, its extent being 1
   double v = 0.0;
-  std::size_t Index = 0;
 };
 
 double Turn(const Corner& a, const Corner& b, const Corner& c)
 {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
-bool Same(const Corner& a, const Corner& b)
-{
-  return a.u == b.u && a.v == b.v;
-}
-
 /// The greatest area vector of the first corner with two others.
 Vec3 WidestTurn(const std::vector<Vec3>& corners)
 {
@@ -53,32 +48,6 @@ bool Cross2(const Corner& a, const Corner& b, const Corner& c, const Corner& d)
   const double ac = Turn(a, b, c), ad = Turn(a, b, d), ca = Turn(c, d, a), cb = Turn(c, d, b);
   return ((ac > Rounding && ad < -Rounding) || (ac < -Rounding && ad > Rounding)) &&
     ((ca > Rounding && cb < -Rounding) || (ca < -Rounding && cb > Rounding));
-}
-
-/// True when no other corner lies inside the ear at `k`.
-bool IsEar(const std::vector<Corner>& ring, std::size_t k)
-{
-  const std::size_t n = ring.size();
-  const Corner& a = ring[(k + n - 1) % n];
-  const Corner& b = ring[k];
-  const Corner& c = ring[(k + 1) % n];
-  if (!(Turn(a, b, c) > Rounding))
-  {
-    return false;
-  }
-  for (const Corner& p : ring)
-  {
-    if (Same(p, a) || Same(p, b) || Same(p, c))
-    {
-      continue;
-    }
-    // On the cut from c to a counts as inside: it would be cut off.
-    if (Turn(a, b, p) > Rounding && Turn(b, c, p) > Rounding && Turn(c, a, p) >= -Rounding)
-    {
-      return false;
-    }
-  }
-  return true;
 }
 
 } // namespace
@@ -123,16 +92,16 @@ std::vector<Triangle3> TriangulatePolygon(
   Vec3 s, t;
   Frame(n, s, t);
   std::vector<Corner> ring;
-  for (std::size_t k = 0; k < distinct.size(); ++k)
+  for (const Vec3& corner : distinct)
   {
-    const Vec3 p = (distinct[k] - distinct[0]) / extent;
+    const Vec3 p = (corner - distinct[0]) / extent;
     const double off = std::fabs(Dot(n, p));
     if (off > PolygonFlatness)
     {
       throw InputError(array, index, off, "a flat polygon: no corner off its plane by more than " +
           std::string("1e-4 of its extent"));
     }
-    ring.push_back({ Dot(s, p), Dot(t, p), k });
+    ring.push_back({ Dot(s, p), Dot(t, p) });
   }
   for (std::size_t i = 0; i < ring.size(); ++i)
   {
@@ -153,61 +122,11 @@ std::vector<Triangle3> TriangulatePolygon(
   }
 
   std::vector<Triangle3> triangles;
-  const auto cut = [&](std::size_t k) {
-    const std::size_t m = ring.size();
-    if (Turn(ring[(k + m - 1) % m], ring[k], ring[(k + 1) % m]) > Rounding)
-    {
-      triangles.push_back({ distinct[ring[(k + m - 1) % m].Index], distinct[ring[k].Index],
-        distinct[ring[(k + 1) % m].Index] });
-    }
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
-  };
-  // The ear's neighbour is tried next but one: convex polygons then get no needles.
-  std::size_t at = 1;
-  std::size_t tried = 0;
-  while (ring.size() > 3)
-  {
-    const std::size_t k = at % ring.size();
-    if (IsEar(ring, k))
-    {
-      cut(k);
-      at = k + 1;
-      tried = 0;
-      continue;
-    }
-    ++at;
-    if (++tried <= ring.size())
-    {
-      continue;
-    }
-    // No ear: a corner on a straight line (or a bridge's end) goes without a triangle.
-    std::size_t flattest = 0;
-    double least = 1e300;
-    for (std::size_t i = 0; i < ring.size(); ++i)
-    {
-      const double turn = std::fabs(
-        Turn(ring[(i + ring.size() - 1) % ring.size()], ring[i], ring[(i + 1) % ring.size()]));
-      if (turn < least)
-      {
-        least = turn;
-        flattest = i;
-      }
-    }
-    if (least > Rounding)
-    {
-      break;
-    }
-    cut(flattest);
-    tried = 0;
-  }
-  if (ring.size() == 3)
-  {
-    cut(1);
-  }
   double sum = 0.0;
-  for (const Triangle3& triangle : triangles)
+  for (const auto& corner : PolygonTriangles(distinct))
   {
-    sum += Length(AreaNormal2(triangle)) / (extent * extent);
+    triangles.push_back({ distinct[corner[0]], distinct[corner[1]], distinct[corner[2]] });
+    sum += Length(AreaNormal2(triangles.back())) / (extent * extent);
   }
   if (std::fabs(sum - Length(area2)) > 1e-6 * Length(area2) + 100.0 * Rounding)
   {

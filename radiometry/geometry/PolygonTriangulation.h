@@ -12,12 +12,10 @@ namespace radiometry
 /// single precision and rounded coordinates need.
 inline constexpr double PolygonFlatness = 1e-4;
 
-/// Cuts a flat simple polygon, convex or concave, into triangles that turn as it does.
-///   Method  ear clipping in the plane of the polygon's area vector (Newell). A bridge to a hole (two
-///           edges on one line) is allowed
+/// PolygonTriangles of a polygon that has to be flat and simple: an area light's. A bridge to a hole
+/// (two edges on one line) is allowed.
 ///   Empty   where the polygon has no area
 ///   Cost    O(n^2) for n corners
-///   Source  Meisters (1975), polygons have ears
 ///   Fails   InputError{array, index}: corners off the plane by more than PolygonFlatness, or edges
 ///           that cross
 std::vector<Triangle3> TriangulatePolygon(
