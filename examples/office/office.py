@@ -57,6 +57,7 @@ def main(folder=None):
             writer = vtkXMLPolyDataWriter()
             writer.SetFileName(os.path.join(folder, name))
             writer.SetInputDataObject(statistics.GetOutputDataObject(port))
+            writer.SetDataModeToBinary()
             writer.Write()
 
 
