@@ -53,6 +53,47 @@ void Filter(const RTCFilterFunctionNArguments* args)
   }
 }
 
+/// What Embree is handed beside the rays: the queries that judge their hits, in the form that its
+/// version 3 or 4 wants.
+class FilteredQuery
+{
+public:
+  FilteredQuery(RayQuery* queries, bool coherent)
+    : Coherent(coherent)
+  {
+    this->Shared.Queries = queries;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&this->Shared.Context);
+#else
+    rtcInitIntersectContext(&this->Shared.Context);
+    this->Shared.Context.flags =
+      coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    this->Shared.Context.filter = &Filter;
+#endif
+  }
+
+#if RTC_VERSION_MAJOR >= 4
+  template <typename Kind, typename Init>
+  Kind Arguments(const Init& initialise)
+  {
+    Kind arguments;
+    initialise(&arguments);
+    arguments.context = &this->Shared.Context;
+    arguments.filter = &Filter;
+    arguments.flags =
+      static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER |
+        (this->Coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT));
+    return arguments;
+  }
+#else
+  FilterContext* Context() { return &this->Shared.Context; }
+#endif
+
+private:
+  QueryContext Shared;
+  bool Coherent;
+};
+
 void FillRay(RTCRay& ray, const RayQuery& q, double begin, double end)
 {
   const Vec3 start = q.Start + (begin - EndMargin) * q.Direction;
@@ -101,21 +142,12 @@ bool OcclusionScene::Internals::Occluded(RayQuery q) const
   }
   RTCRay ray;
   FillRay(ray, q, begin, end);
-  QueryContext context;
-  context.Queries = &q;
+  FilteredQuery query(&q, false);
 #if RTC_VERSION_MAJOR >= 4
-  rtcInitRayQueryContext(&context.Context);
-  RTCOccludedArguments args;
-  rtcInitOccludedArguments(&args);
-  args.context = &context.Context;
-  args.filter = &Filter;
-  args.flags = static_cast<RTCRayQueryFlags>(
-    RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | RTC_RAY_QUERY_FLAG_INCOHERENT);
-  rtcOccluded1(this->Handle, &ray, &args);
+  auto arguments = query.Arguments<RTCOccludedArguments>(rtcInitOccludedArguments);
+  rtcOccluded1(this->Handle, &ray, &arguments);
 #else
-  rtcInitIntersectContext(&context.Context);
-  context.Context.filter = &Filter;
-  rtcOccluded1(this->Handle, &context.Context, &ray);
+  rtcOccluded1(this->Handle, query.Context(), &ray);
 #endif
   if (ray.tfar < 0.0f)
   {
@@ -142,7 +174,8 @@ bool OcclusionScene::Internals::Visible(RayQuery q, double* bands) const
   return this->Panes->Pass(begin > 0.0 ? From(q, begin) : q, bands);
 }
 
-void OcclusionScene::Internals::OccludedPacket(RayQuery* queries, std::size_t count, std::uint8_t* hidden) const
+void OcclusionScene::Internals::OccludedPacket(
+  RayQuery* queries, std::size_t count, std::uint8_t* hidden) const
 {
   alignas(64) int valid[PacketSize] = {};
   RTCRay16 rays;
@@ -188,22 +221,12 @@ void OcclusionScene::Internals::OccludedPacket(RayQuery* queries, std::size_t co
   {
     return;
   }
-  QueryContext context;
-  context.Queries = queries;
+  FilteredQuery query(queries, true);
 #if RTC_VERSION_MAJOR >= 4
-  rtcInitRayQueryContext(&context.Context);
-  RTCOccludedArguments args;
-  rtcInitOccludedArguments(&args);
-  args.context = &context.Context;
-  args.filter = &Filter;
-  args.flags = static_cast<RTCRayQueryFlags>(
-    RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | RTC_RAY_QUERY_FLAG_COHERENT);
-  rtcOccluded16(valid, this->Handle, &rays, &args);
+  auto arguments = query.Arguments<RTCOccludedArguments>(rtcInitOccludedArguments);
+  rtcOccluded16(valid, this->Handle, &rays, &arguments);
 #else
-  rtcInitIntersectContext(&context.Context);
-  context.Context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  context.Context.filter = &Filter;
-  rtcOccluded16(valid, this->Handle, &context.Context, &rays);
+  rtcOccluded16(valid, this->Handle, query.Context(), &rays);
 #endif
   for (std::size_t k = 0; k < count; ++k)
   {
@@ -247,21 +270,12 @@ SurfaceHit OcclusionScene::Internals::Closest(RayQuery q) const
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  QueryContext context;
-  context.Queries = &q;
+  FilteredQuery query(&q, false);
 #if RTC_VERSION_MAJOR >= 4
-  rtcInitRayQueryContext(&context.Context);
-  RTCIntersectArguments args;
-  rtcInitIntersectArguments(&args);
-  args.context = &context.Context;
-  args.filter = &Filter;
-  args.flags = static_cast<RTCRayQueryFlags>(
-    RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | RTC_RAY_QUERY_FLAG_INCOHERENT);
-  rtcIntersect1(this->Handle, &hit, &args);
+  auto arguments = query.Arguments<RTCIntersectArguments>(rtcInitIntersectArguments);
+  rtcIntersect1(this->Handle, &hit, &arguments);
 #else
-  rtcInitIntersectContext(&context.Context);
-  context.Context.filter = &Filter;
-  rtcIntersect1(this->Handle, &context.Context, &hit);
+  rtcIntersect1(this->Handle, query.Context(), &hit);
 #endif
   SurfaceHit result;
   if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID)
