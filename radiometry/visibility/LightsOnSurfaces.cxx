@@ -55,70 +55,84 @@ double Behind(const std::vector<Vec3>& corners, const Triangle3& t, const Vec3& 
 
 void BringLightsForward(Scene& scene, double rounding)
 {
-  const auto moves = [](const Light& light) { return light.Enabled && !(Facing(light) == Vec3{}); };
-  if (!(rounding > 0.0) || std::none_of(scene.Lights.begin(), scene.Lights.end(), moves))
+  if (!(rounding > 0.0))
   {
     return;
   }
-  std::vector<Box3> boxes(scene.Triangles.size());
-  for (std::size_t t = 0; t < boxes.size(); ++t)
+  struct Candidate
   {
-    for (const Vec3& p : scene.TriangleAt(t))
-    {
-      boxes[t].Add(p);
-    }
-  }
-  const BoxTree tree(boxes);
+    Light* Moved;
+    Vec3 Axis;
+    std::vector<Vec3> Corners;
+    Vec3 Move;
+    double Farthest = 0.0;
+  };
+  std::vector<Candidate> candidates;
+  std::vector<Box3> boxes;
   const double most = 2.0 * rounding;
   const Vec3 margin{ most, most, most };
   for (Light& light : scene.Lights)
   {
-    if (!moves(light))
+    const Vec3 axis = light.Enabled ? Facing(light) : Vec3{};
+    if (axis == Vec3{})
     {
       continue;
     }
-    const bool area = light.Type == LightType::Area;
-    const Vec3 facing = Facing(light);
-    const std::vector<Vec3> corners =
-      area ? light.Polygon : std::vector<Vec3>{ light.Position };
-    Box3 bounds;
-    for (const Vec3& corner : corners)
+    candidates.push_back({ &light, axis,
+      light.Type == LightType::Area ? light.Polygon : std::vector<Vec3>{ light.Position }, {} });
+    boxes.emplace_back();
+    for (const Vec3& corner : candidates.back().Corners)
     {
-      bounds.Add(corner - margin);
-      bounds.Add(corner + margin);
+      boxes.back().Add(corner - margin);
+      boxes.back().Add(corner + margin);
     }
-    const double least = area ? 1.0 - 1e-6 : 0.5; // cosine between the light's axis and the normal
-    Vec3 move;
-    double farthest = 0.0;
-    tree.Visit(
-      [&](const Box3& box) {
-        for (int a = 0; a < 3; ++a)
-        {
-          if (box.Min[a] > bounds.Max[a] || box.Max[a] < bounds.Min[a])
-          {
-            return false;
-          }
-        }
-        return true;
-      },
-      [&](std::int32_t t) {
-        const Triangle3 triangle = scene.TriangleAt(static_cast<std::size_t>(t));
-        const Vec3 n = Normalized(AreaNormal2(triangle));
-        const double cosine = Dot(n, facing);
-        const Vec3 normal = cosine < 0.0 ? -n : n;
-        const double depth =
-          std::fabs(cosine) >= least ? Behind(corners, triangle, normal, most) : 0.0;
-        if (depth > farthest)
-        {
-          farthest = depth;
-          move = depth * normal;
-        }
-        return true;
-      });
-    light.Position += move;
-    for (Vec3& corner : light.Polygon)
+  }
+  // Lights are few, triangles many: the tree is over the lights.
+  const BoxTree tree(boxes);
+  for (std::size_t t = 0; t < scene.Triangles.size() && !tree.Empty(); ++t)
+  {
+    const Triangle3 triangle = scene.TriangleAt(t);
+    Box3 bounds;
+    for (const Vec3& p : triangle)
     {
-      corner += move;
+      bounds.Add(p);
+    }
+    const auto meets = [&bounds](const Box3& box) {
+      for (int a = 0; a < 3; ++a)
+      {
+        if (box.Min[a] > bounds.Max[a] || box.Max[a] < bounds.Min[a])
+        {
+          return false;
+        }
+      }
+      return true;
+    };
+    tree.Visit(meets, [&](std::int32_t k) {
+      Candidate& light = candidates[k];
+      if (!meets(boxes[k]))
+      {
+        return true; // a leaf holds several lights
+      }
+      const Vec3 n = Normalized(AreaNormal2(triangle));
+      const double cosine = Dot(n, light.Axis);
+      const double least = light.Moved->Type == LightType::Area ? 1.0 - 1e-6 : 0.5;
+      const Vec3 normal = cosine < 0.0 ? -n : n;
+      const double depth =
+        std::fabs(cosine) >= least ? Behind(light.Corners, triangle, normal, most) : 0.0;
+      if (depth > light.Farthest)
+      {
+        light.Farthest = depth;
+        light.Move = depth * normal;
+      }
+      return true;
+    });
+  }
+  for (const Candidate& light : candidates)
+  {
+    light.Moved->Position += light.Move;
+    for (Vec3& corner : light.Moved->Polygon)
+    {
+      corner += light.Move;
     }
   }
 }

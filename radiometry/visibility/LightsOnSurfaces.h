@@ -11,7 +11,7 @@ namespace radiometry
 ///   Model   a one-sided area light, a spot or a luminaire with a triangle square to it in front, no
 ///           farther than twice `rounding` [m], is moved into that triangle's plane. What shines both
 ///           ways or all around stays: its surface could be on either side
-///   Cost    O(n log n) when there is any such light, else nothing; 0 for `rounding` 0
+///   Cost    O(triangles x log(such lights)), nothing where there is none or `rounding` is 0
 void BringLightsForward(Scene& scene, double rounding);
 
 } // namespace radiometry
