@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/DirectIrradiance.h"
+#include "radiometry/irradiance/IrradianceSimulation.h"
 
 #include "radiometry/geometry/SolidAngle.h"
 #include "tests/core/TestScenes.h"
@@ -33,19 +34,9 @@ Light DirectionalLight(const Vec3& direction, double irradiance)
   return light;
 }
 
-std::vector<Patch> Patches(const Scene& scene)
-{
-  std::vector<Patch> patches;
-  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
-  {
-    patches.push_back({ scene.TriangleAt(t), static_cast<std::int32_t>(t), scene.TriangleCell[t], 0 });
-  }
-  return patches;
-}
-
 DirectResult Compute(const Scene& scene, DirectOptions options = {})
 {
-  return ComputeDirectIrradiance(scene, OcclusionScene(scene), Patches(scene), options);
+  return ComputeDirectIrradiance(scene, OcclusionScene(scene), MakePatches(scene, 0), options);
 }
 
 TEST(DirectIrradiance, PointLightGivesSolidAngleOverArea)
@@ -274,7 +265,7 @@ TEST(DirectIrradiance, ErrorCoversTheTruthUnderFoliage)
   }
   Scene scene = mesh.ToScene();
   scene.Lights = { PointLight(scene, { 0, 0, 2.5 }, 1.0) };
-  std::vector<Patch> floor = Patches(scene);
+  std::vector<Patch> floor = MakePatches(scene, 0);
   floor.resize(128);
   const OcclusionScene occluders(scene);
   DirectOptions options;
@@ -332,7 +323,7 @@ TEST(DirectIrradiance, AbortIsSeen)
   mesh.AddBox({ 0, 0, 0 }, { 4, 4, 3 }, 2, true);
   Scene scene = mesh.ToScene();
   scene.Lights = { PointLight(scene, { 2, 2, 2.5 }, 100.0) };
-  EXPECT_THROW(ComputeDirectIrradiance(scene, OcclusionScene(scene), Patches(scene), {},
+  EXPECT_THROW(ComputeDirectIrradiance(scene, OcclusionScene(scene), MakePatches(scene, 0), {},
                  { &stopper, 0.0, 1.0, "direct" }),
     Aborted);
 }

@@ -2,6 +2,7 @@
 #include "radiometry/irradiance/SkyIrradiance.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/IrradianceSimulation.h"
 #include "radiometry/scene/SkyRadiance.h"
 #include "tests/core/TestScenes.h"
 
@@ -11,35 +12,16 @@
 #include <random>
 
 using namespace radiometry;
+using test::SkyLight;
 
 namespace
 {
 
 const double Pi = std::acos(-1.0);
 
-Light SkyLight(std::shared_ptr<const SkyRadiance> sky, std::vector<double> intensity = { 1.0 })
-{
-  Light light;
-  light.Type = LightType::Environment;
-  light.Reference = { 0.0, 1.0, 0.0 };
-  light.Intensity = std::move(intensity);
-  light.Environment = std::move(sky);
-  return light;
-}
-
-std::vector<Patch> Patches(const Scene& scene)
-{
-  std::vector<Patch> patches;
-  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
-  {
-    patches.push_back({ scene.TriangleAt(t), static_cast<std::int32_t>(t), scene.TriangleCell[t], 0 });
-  }
-  return patches;
-}
-
 DirectResult Compute(const Scene& scene, DirectOptions options = {})
 {
-  return ComputeDirectIrradiance(scene, OcclusionScene(scene), Patches(scene), options);
+  return ComputeDirectIrradiance(scene, OcclusionScene(scene), MakePatches(scene, 0), options);
 }
 
 TEST(SkyIrradiance, ConvexBodyUnderUniformSkyHasNoNoise)
@@ -334,7 +316,7 @@ TEST(SkyIrradiance, StopsWhenAskedAndWhenTimeIsUp)
     int Calls = 0;
     bool Progress(double, const char*) override { return ++this->Calls < 4; }
   } stop;
-  EXPECT_THROW(ComputeDirectIrradiance(scene, OcclusionScene(scene), Patches(scene), {},
+  EXPECT_THROW(ComputeDirectIrradiance(scene, OcclusionScene(scene), MakePatches(scene, 0), {},
                  { &stop, 0.0, 1.0, "sky" }),
     Aborted);
   EXPECT_EQ(stop.Calls, 4);
@@ -441,7 +423,7 @@ TEST(SkyIrradiance, ErrorsCoverOnRandomScenes)
   const OcclusionScene occluders(scene);
   const auto sky = SkyRadiance::General(SkyRadiance::TypeCoefficients(12), { 0.5, -0.3, 0.35 });
   scene.Lights = { SkyLight(sky) };
-  const std::vector<Patch> patches = Patches(scene);
+  const std::vector<Patch> patches = MakePatches(scene, 0);
   const DirectResult r = ComputeDirectIrradiance(scene, occluders, patches, {});
   int covered = 0;
   std::vector<double> ratio;

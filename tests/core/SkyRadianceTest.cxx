@@ -6,6 +6,7 @@
 #include "radiometry/irradiance/SkyTable.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/SolarPosition.h"
+#include "tests/core/TestScenes.h"
 
 #include <gtest/gtest.h>
 
@@ -16,21 +17,12 @@
 #include <random>
 
 using namespace radiometry;
+using test::SkyLight;
 
 namespace
 {
 
 const double Pi = std::acos(-1.0);
-
-Light SkyLight(std::shared_ptr<const SkyRadiance> sky, std::vector<double> intensity = { 1.0 })
-{
-  Light light;
-  light.Type = LightType::Environment;
-  light.Reference = { 0.0, 1.0, 0.0 };
-  light.Intensity = std::move(intensity);
-  light.Environment = std::move(sky);
-  return light;
-}
 
 double Open(const Light& light, const Vec3& normal, double* relativeError = nullptr)
 {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 /// Small meshes that the tests of the core share.
@@ -116,5 +118,17 @@ struct Mesh
     return scene;
   }
 };
+
+/// An environment with its azimuth 0 along y.
+inline radiometry::Light SkyLight(
+  std::shared_ptr<const radiometry::SkyRadiance> sky, std::vector<double> intensity = { 1.0 })
+{
+  radiometry::Light light;
+  light.Type = radiometry::LightType::Environment;
+  light.Reference = { 0.0, 1.0, 0.0 };
+  light.Intensity = std::move(intensity);
+  light.Environment = std::move(sky);
+  return light;
+}
 
 } // namespace test

@@ -5,6 +5,9 @@ import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkradiometry import vtkDirectionalLightSource
 
 SHARED_DATA = os.environ.get("RADIOMETRY_SHARED_DATA", "")
@@ -41,6 +44,22 @@ def points(data):
 def triangles(data):
     cells = vtk_to_numpy(data.GetPolys().GetConnectivityArray())
     return cells.reshape(-1, 3)
+
+
+def square(resolution=1, size=2.0, center=(0.0, 0.0, 0.0)):
+    """A level square of resolution x resolution cells in double precision, its front up."""
+    source = vtkPlaneSource()
+    x, y, z = center
+    h = 0.5 * size
+    source.SetOrigin(x - h, y - h, z)
+    source.SetPoint1(x + h, y - h, z)
+    source.SetPoint2(x - h, y + h, z)
+    source.SetResolution(resolution, resolution)
+    source.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    source.Update()
+    data = vtkPolyData()
+    data.ShallowCopy(source.GetOutput())
+    return data
 
 
 def sun(direction, intensity):

@@ -6,7 +6,7 @@ import tempfile
 
 import numpy as np
 import vtkmodules.all as vtk
-from checks import array, cell_values, close, fails, run_all, simulation
+from checks import array, cell_values, close, fails, run_all, simulation, square
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkradiometry import (vtkAreaLightSource, vtkEnvironmentLightSource, vtkIrradianceFilter,
                            vtkPhotometricFileReader, vtkRadiosityFilter)
@@ -50,15 +50,7 @@ class Lights:
 
 
 def floor(resolution=4, size=2.0, center=(0, 0, 0)):
-    source = vtk.vtkPlaneSource()
-    h = 0.5 * size
-    source.SetOrigin(center[0] - h, center[1] - h, center[2])
-    source.SetPoint1(center[0] + h, center[1] - h, center[2])
-    source.SetPoint2(center[0] - h, center[1] + h, center[2])
-    source.SetResolution(resolution, resolution)
-    source.SetOutputPointsPrecision(vtk.vtkAlgorithm.DOUBLE_PRECISION)
-    source.Update()
-    return source.GetOutput()
+    return square(resolution, size, center)
 
 
 def values(data, *lights, kind=vtkIrradianceFilter, **properties):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import vtkmodules.all as vtk
 import checks
-from checks import array, close, fails, run_all, simulation, strings, sun
+from checks import array, close, fails, run_all, simulation, square, strings, sun
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkradiometry import vtkIrradianceFilter, vtkPointLightSource, vtkSpotLightSource
 
@@ -13,15 +13,7 @@ CELLS, POINTS = 0, 1
 
 
 def plane(resolution=1, size=2.0, z=0.0, origin=(0.0, 0.0)):
-    source = vtk.vtkPlaneSource()
-    h = 0.5 * size
-    source.SetOrigin(origin[0] - h, origin[1] - h, z)
-    source.SetPoint1(origin[0] + h, origin[1] - h, z)
-    source.SetPoint2(origin[0] - h, origin[1] + h, z)
-    source.SetResolution(resolution, resolution)
-    source.SetOutputPointsPrecision(vtk.vtkAlgorithm.DOUBLE_PRECISION)
-    source.Update()
-    return source.GetOutput()
+    return square(resolution, size, (*origin, z))
 
 
 def point_light(position, intensity, unit=0):

@@ -2,22 +2,13 @@
 """RefineShadowBoundaries: the edges of shadows become geometry."""
 import numpy as np
 import vtkmodules.all as vtk
-from checks import array, cell_values, close, run_all, simulation, sun
+from checks import array, cell_values, close, run_all, simulation, square, sun
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkradiometry import vtkIrradianceFilter, vtkPointLightSource
 
 
 def floor(resolution=1, size=4.0, center=(0, 0, 0)):
-    source = vtk.vtkPlaneSource()
-    h = 0.5 * size
-    source.SetOrigin(center[0] - h, center[1] - h, center[2])
-    source.SetPoint1(center[0] + h, center[1] - h, center[2])
-    source.SetPoint2(center[0] - h, center[1] + h, center[2])
-    source.SetResolution(resolution, resolution)
-    source.SetOutputPointsPrecision(vtk.vtkAlgorithm.DOUBLE_PRECISION)
-    source.Update()
-    data = vtk.vtkPolyData()
-    data.ShallowCopy(source.GetOutput())
+    data = square(resolution, size, center)
     tag(data, "Tag", 10.0 * np.arange(resolution * resolution) + 3.0)
     return data
 

@@ -2,23 +2,13 @@
 """Light through panes in the filters: Transmittance of surface and occluders, plan, bad input."""
 import numpy as np
 import vtkmodules.all as vtk
-from checks import array, cell_values, close, fails, run_all, simulation, strings, sun
+from checks import array, cell_values, close, fails, run_all, simulation, square, strings, sun
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkradiometry import vtkIrradianceFilter, vtkPointLightSource, vtkRadiosityFilter
 
 
 def plane(resolution=1, size=2.0, z=0.0, center=(0.0, 0.0)):
-    source = vtk.vtkPlaneSource()
-    h = 0.5 * size
-    source.SetOrigin(center[0] - h, center[1] - h, z)
-    source.SetPoint1(center[0] + h, center[1] - h, z)
-    source.SetPoint2(center[0] - h, center[1] + h, z)
-    source.SetResolution(resolution, resolution)
-    source.SetOutputPointsPrecision(vtk.vtkAlgorithm.DOUBLE_PRECISION)
-    source.Update()
-    data = vtk.vtkPolyData()
-    data.ShallowCopy(source.GetOutput())
-    return data
+    return square(resolution, size, (*center, z))
 
 
 def add(data, name, values):
