@@ -24,6 +24,24 @@ constexpr double NudgeShare = 1.0 / 64.0;
 
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 
+/// The places from which a vertex asks for a light: a little inside each face around it that faces
+/// the light.
+template <typename Visit>
+void VisitPlaces(
+  const Scene& scene, const SourceFlux& source, const SurfacePoint& p, const Visit& visit)
+{
+  for (const std::int32_t t : p.Around)
+  {
+    const Triangle3 around = scene.TriangleAt(t);
+    const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
+    const Vec3 n = AreaNormal2(around);
+    if (source.InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
+    {
+      visit(RayEnd{ start, t });
+    }
+  }
+}
+
 /// True when rounding hides on which side of a point's plane the light is.
 bool InPlane(const SourceFlux& source, const SurfacePoint& p, double extent)
 {
@@ -78,23 +96,16 @@ void See(const Scene& scene, const SourceFlux& source, const ShadowCutter& cutte
   std::fill(sight.Least.begin(), sight.Least.end(), 1.0);
   std::fill(sight.Most.begin(), sight.Most.end(), 0.0);
   sight.Rays = 0;
-  for (const std::int32_t t : p.Around)
-  {
-    const Triangle3 around = scene.TriangleAt(t);
-    const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
-    const Vec3 n = AreaNormal2(around);
-    if (source.InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
+  VisitPlaces(scene, source, p, [&](const RayEnd& place) {
+    ++sight.Rays;
+    Ask(cutter, place, sight.One);
+    for (std::size_t b = 0; b < bands; ++b)
     {
-      ++sight.Rays;
-      Ask(cutter, { start, t }, sight.One);
-      for (std::size_t b = 0; b < bands; ++b)
-      {
-        sight.Share[b] += sight.One[b];
-        sight.Least[b] = std::min(sight.Least[b], sight.One[b]);
-        sight.Most[b] = std::max(sight.Most[b], sight.One[b]);
-      }
+      sight.Share[b] += sight.One[b];
+      sight.Least[b] = std::min(sight.Least[b], sight.One[b]);
+      sight.Most[b] = std::max(sight.Most[b], sight.One[b]);
     }
-  }
+  });
   for (std::size_t b = 0; b < bands && sight.Rays > 0; ++b)
   {
     sight.Share[b] /= sight.Rays;
@@ -228,16 +239,7 @@ private:
       add(this->From[i]);
       return;
     }
-    for (const std::int32_t t : p.Around)
-    {
-      const Triangle3 around = this->Geometry.TriangleAt(t);
-      const Vec3 start = p.Point + NudgeShare * (Centroid(around) - p.Point);
-      const Vec3 n = AreaNormal2(around);
-      if (source.InFront(start, Dot(n, p.Normal) >= 0.0 ? n : -n))
-      {
-        add({ start, t });
-      }
-    }
+    VisitPlaces(this->Geometry, source, p, add);
   }
   std::int64_t Trace(const ShadowCutter& cutter)
   {
