@@ -3,6 +3,8 @@
 
 #include "tests/core/Calibration.h"
 
+#include <functional>
+
 namespace test
 {
 

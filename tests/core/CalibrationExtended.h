@@ -3,6 +3,8 @@
 
 #include "tests/core/Calibration.h"
 
+#include <functional>
+
 /// Lights that reach a point from many directions. Their reference at a point is an integral over
 /// the source (or the plane through which it is seen) less the union of the blockers' shadows on it;
 /// that of a cell is its average over many points.

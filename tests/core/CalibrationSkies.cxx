@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 /// Environment lights over the floor. The reference takes from the whole sky's irradiance what the
 /// blockers hide: L cos(theta) over the union of their shadows on the plane one metre above the point.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 /// Luminaires: the reference interpolates the web's numbers by itself and integrates between the
 /// curves at which the interpolation bends.

@@ -3,6 +3,7 @@
 #include "radiometry/scene/CandelaWeb.h"
 #include "radiometry/scene/InputError.h"
 
+#include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>
 #include <random>

@@ -5,8 +5,11 @@
 #include "radiometry/irradiance/SourceFlux.h"
 #include "radiometry/irradiance/WebFlux.h"
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <gtest/gtest.h>
+#include <memory>
 #include <random>
 
 using namespace radiometry;

@@ -4,6 +4,7 @@
 #include "io/PhotometricParts.h"
 #include "io/PhotometricShapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
