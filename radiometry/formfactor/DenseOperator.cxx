@@ -400,7 +400,7 @@ void DenseOperator::Apply(const double* B, double* out, int bands) const
   }
 }
 
-double DenseOperator::RowSum(std::size_t i) const { return this->Impl->RowSums[i]; }
+double DenseOperator::RowSum(std::size_t i, int) const { return this->Impl->RowSums[i]; }
 
 void DenseOperator::ApplyError(
   const double* B, double* formFactor, double* visibility, int bands) const

@@ -32,7 +32,7 @@ public:
   std::size_t Size() const override;
   const std::vector<double>& Areas() const override;
   void Apply(const double* B, double* out, int bands) const override;
-  double RowSum(std::size_t i) const override;
+  double RowSum(std::size_t i, int band = 0) const override;
   void ApplyError(
     const double* B, double* formFactor, double* visibility, int bands) const override;
   std::vector<std::int32_t> Components() const override;

@@ -23,7 +23,12 @@ struct ClosureReport
 /// element i, averaged over it, when element j leaves B_j everywhere. It depends on geometry only:
 /// lights and optics may change without building it again.
 ///
-/// Thread-safe after construction; results do not depend on the number of threads.
+/// Light may pass over mirrors and through panes on its way (Bands() > 0): F_ij is then what of
+/// B_j arrives in a band, and rows may sum to more than one.
+///
+/// Thread-safe after construction; results do not depend on the number of threads. Over ranks
+/// (ExchangeOptions::Ranks) each keeps its own rows, and Apply, ApplyError and construction are
+/// collective; sizes, values and reports are those of the whole on each rank.
 class FormFactorOperator
 {
 public:
@@ -34,8 +39,10 @@ public:
   virtual const std::vector<double>& Areas() const = 0;
   /// out = F B for `bands` interleaved right-hand sides (value of element i, band b at i bands + b).
   virtual void Apply(const double* B, double* out, int bands) const = 0;
+  /// Bands whose exchange differs; 0: F is the same for all.
+  virtual int Bands() const { return 0; }
   /// sum_j F_ij: the share of the hemisphere of i that elements fill.
-  virtual double RowSum(std::size_t i) const = 0;
+  virtual double RowSum(std::size_t i, int band = 0) const = 0;
   /// Standard error of each value of F B for a given B, apart for the geometry of the unoccluded
   /// exchange and for visibility (sampled). Same layout as Apply.
   virtual void ApplyError(

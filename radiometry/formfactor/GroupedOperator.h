@@ -20,7 +20,7 @@ public:
   std::size_t Size() const override { return this->GroupAreas.size(); }
   const std::vector<double>& Areas() const override { return this->GroupAreas; }
   void Apply(const double* B, double* out, int bands) const override;
-  double RowSum(std::size_t i) const override { return this->RowSums[i]; }
+  double RowSum(std::size_t i, int = 0) const override { return this->RowSums[i]; }
   void ApplyError(
     const double* B, double* formFactor, double* visibility, int bands) const override;
   std::vector<std::int32_t> Components() const override;

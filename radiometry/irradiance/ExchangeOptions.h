@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "radiometry/scene/Communicator.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -15,6 +17,7 @@ struct ExchangeOptions
   std::size_t MemoryLimit = 0; // bytes; 0: none
   int Threads = 0;             // 0: all
   std::uint64_t Seed = 0;      // results of different seeds are independent
+  const Communicator* Ranks = nullptr; // that share rows; null: this process alone
 };
 
 } // namespace radiometry

@@ -19,7 +19,9 @@ struct Materials
   std::array<std::vector<double>, 2> DiffuseReflectance;
   std::array<std::vector<double>, 2> SpecularReflectance; // empty: none anywhere
   std::array<std::vector<double>, 2> EmittedExitance;     // W/m^2; empty: none anywhere
-  std::vector<double> Transmittance;                      // empty: opaque everywhere
+  std::array<std::vector<double>, 2> Shininess;           // per cell, Phong exponent; empty: 10
+  std::vector<double> Transmittance;                      // straight through; empty: opaque
+  std::vector<double> DiffuseTransmittance; // of what falls on either side, leaves the other; empty: 0
   std::vector<std::uint8_t> TwoSided;                     // per cell
 };
 

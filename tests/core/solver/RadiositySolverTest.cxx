@@ -48,7 +48,7 @@ public:
     }
     ++this->Calls;
   }
-  double RowSum(std::size_t) const override { return this->Share; }
+  double RowSum(std::size_t, int = 0) const override { return this->Share; }
   void ApplyError(const double*, double*, double*, int) const override {}
   std::vector<std::int32_t> Components() const override
   {
@@ -107,7 +107,7 @@ public:
       }
     }
   }
-  double RowSum(std::size_t) const override { return 1.0; }
+  double RowSum(std::size_t, int = 0) const override { return 1.0; }
   void ApplyError(const double*, double*, double*, int) const override {}
   std::vector<std::int32_t> Components() const override
   {
