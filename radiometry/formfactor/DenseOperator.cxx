@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/DenseOperator.h"
 
+#include "radiometry/formfactor/ClosedElements.h"
 #include "radiometry/formfactor/ClosureCorrection.h"
 #include "radiometry/formfactor/LinkedSets.h"
 #include "radiometry/visibility/PairVisibility.h"
@@ -117,8 +118,6 @@ struct DenseOperator::Internals
 
   void Build(const OcclusionScene& occluders, const ElementSet& elements,
     const ExchangeOptions& options, bool occlusion, const StageProgress& stage);
-  void FindClosed(const OcclusionScene& occluders, const ElementSet& elements,
-    const ExchangeOptions& options, const StageProgress& stage, std::vector<std::uint8_t>& closed);
   void Close(const std::vector<std::uint8_t>& closed)
   {
     this->Lambda = LeastClosure([this](const double* x, double* out) { this->Multiply(x, out); },
@@ -236,31 +235,6 @@ void DenseOperator::Internals::Build(const OcclusionScene& occluders, const Elem
   }
 }
 
-void DenseOperator::Internals::FindClosed(const OcclusionScene& occluders,
-  const ElementSet& elements, const ExchangeOptions& options, const StageProgress& stage,
-  std::vector<std::uint8_t>& closed)
-{
-  constexpr std::uint32_t probes = 64;
-  closed.assign(this->N, 0);
-  ParallelFor(this->N, options.Threads, stage, [&](std::size_t i) {
-    const Patch& patch = elements.GetPatches()[i];
-    const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
-    const SobolSequence sequence(Hash64(Hash64(options.Seed, 0x70726f6265ull), i));
-    for (std::uint32_t k = 0; k < probes; ++k)
-    {
-      const auto u = sequence(k);
-      const SurfaceHit hit =
-        occluders.Closest({ TrianglePoint(patch.Corners, u[0], u[1]), patch.Triangle },
-          CosineDirection(normal, u[2], u[3]));
-      if (elements.Find(hit.Triangle, hit.Front, hit.U, hit.V) < 0)
-      {
-        return;
-      }
-    }
-    closed[i] = 1;
-  });
-}
-
 double DenseOperator::Internals::WorstDefect(const std::vector<std::uint8_t>& closed) const
 {
   double worst = 0.0;
@@ -328,8 +302,8 @@ DenseOperator::DenseOperator(const Scene& scene, const OcclusionScene& occluders
   }
   if (options.Occlusion)
   {
-    std::vector<std::uint8_t> closed;
-    m.FindClosed(occluders, elements, options, part(0.95, 1.0), closed);
+    std::vector<std::uint8_t> closed =
+      FindClosedElements(occluders, elements, options, part(0.95, 1.0));
     // A row that misses more than its own error explains sees an opening the probes did not.
     std::vector<double> error(m.N), none(m.N);
     this->ApplyError(one.data(), none.data(), error.data(), 1);
