@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "radiometry/scene/Archive.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
 
@@ -14,14 +15,21 @@ namespace radiometry
 /// The elements on which light is exchanged: each side of each receiving triangle that can receive,
 /// divided into four as often as asked. Both sides of a triangle are divided alike.
 ///
-/// Elements of one triangle are consecutive. Children are numbered as their corner of the parent,
-/// the middle one last.
+/// Elements of one triangle are consecutive, in the order of a walk down its divisions, front before
+/// back: the same scene divided alike has the same numbers, in any run. Children are numbered as
+/// their corner of the parent, the middle one last.
+///   Cost    some 250 bytes an element; O(n) to make, to divide and to group
 class ElementSet
 {
 public:
   /// One element for each receiving side of each receiving triangle. `backFaces` false leaves the
-  /// backs of two-sided cells out.
+  /// backs of two-sided cells out. Cells that transmit diffusely receive on both sides always.
   ElementSet(const Scene& scene, bool backFaces);
+
+  /// Triangles, sides and divisions; the order of the elements follows from them.
+  void Save(ArchiveWriter& archive) const;
+  /// Throws std::runtime_error for what is no element set.
+  static ElementSet Load(ArchiveReader& archive);
 
   /// Divides until no element is larger than `area` (m^2), each triangle for itself.
   ElementSet DividedToArea(double area) const;
@@ -36,6 +44,13 @@ public:
   std::size_t Cells() const { return this->CellCount; }
   /// How often the element's triangle was divided to make it.
   int Depth(std::size_t element) const { return this->Depths[element]; }
+
+  /// The element of the same piece that looks the other way; -1 where that side does not receive.
+  std::int32_t Opposite(std::size_t element) const
+  {
+    return this->Nodes[static_cast<std::size_t>(this->Leaves[element])]
+      .Element[this->Patches[element].Side == 0 ? 1 : 0];
+  }
 
   /// The element at barycentric coordinates (u, v) of a triangle's side; -1 where none receives.
   std::int32_t Find(std::int32_t triangle, bool front, double u, double v) const;
