@@ -14,18 +14,24 @@ GroupedOperator::GroupedOperator(
   : Inner(inner)
   , Group(std::move(group))
   , GroupAreas(count, 0.0)
-  , RowSums(count, 0.0)
+  , Share(Group.size())
+  , RowSums(count * RowBands(), 0.0)
 {
   for (std::size_t e = 0; e < this->Group.size(); ++e)
   {
     this->GroupAreas[static_cast<std::size_t>(this->Group[e])] += inner.Areas()[e];
   }
-  std::vector<double> sums(this->Group.size());
-  for (std::size_t e = 0; e < sums.size(); ++e)
+  const std::size_t bands = this->RowBands();
+  std::vector<double> sums(this->Group.size() * bands);
+  for (std::size_t e = 0; e < this->Group.size(); ++e)
   {
-    sums[e] = inner.RowSum(e);
+    this->Share[e] = inner.Areas()[e] / this->GroupAreas[static_cast<std::size_t>(this->Group[e])];
+    for (std::size_t b = 0; b < bands; ++b)
+    {
+      sums[e * bands + b] = inner.RowSum(e, static_cast<int>(b));
+    }
   }
-  this->Restrict(sums.data(), this->RowSums.data(), 1);
+  this->Restrict(sums.data(), this->RowSums.data(), static_cast<int>(bands));
 }
 
 void GroupedOperator::Restrict(const double* elements, double* groups, int bands) const
@@ -38,7 +44,7 @@ void GroupedOperator::Restrict(const double* elements, double* groups, int bands
   for (std::size_t e = 0; e < this->Group.size(); ++e)
   {
     const auto g = static_cast<std::size_t>(this->Group[e]);
-    const double share = this->Inner.Areas()[e] / this->GroupAreas[g];
+    const double share = this->Share[e];
     for (std::size_t b = 0; b < nb; ++b)
     {
       groups[g * nb + b] += share * elements[e * nb + b];
@@ -84,7 +90,7 @@ void GroupedOperator::ApplyError(
   for (std::size_t e = 0; e < this->Group.size(); ++e)
   {
     const auto g = static_cast<std::size_t>(this->Group[e]);
-    const double share = this->Inner.Areas()[e] / this->GroupAreas[g];
+    const double share = this->Share[e];
     for (std::size_t b = 0; b < nb; ++b)
     {
       visibility[g * nb + b] += share * share * vis[e * nb + b] * vis[e * nb + b];
@@ -131,7 +137,7 @@ std::vector<std::int32_t> GroupedOperator::Components() const
 std::size_t GroupedOperator::MemoryBytes() const
 {
   return this->Inner.MemoryBytes() + this->Group.size() * sizeof(std::int32_t) +
-    2 * this->GroupAreas.size() * sizeof(double);
+    (this->Group.size() + 2 * this->GroupAreas.size()) * sizeof(double);
 }
 
 std::string GroupedOperator::Description() const

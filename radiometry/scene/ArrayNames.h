@@ -14,6 +14,7 @@ inline constexpr char SpecularReflectance[] = "SpecularReflectance";
 inline constexpr char Shininess[] = "Shininess";
 inline constexpr char EmittedExitance[] = "EmittedExitance";
 inline constexpr char Transmittance[] = "Transmittance";
+inline constexpr char DiffuseTransmittance[] = "DiffuseTransmittance";
 inline constexpr char Ambient[] = "Ambient";
 inline constexpr char TwoSided[] = "TwoSided"; // 0 or 1 per cell; overrides the filter's property
 inline constexpr char ObjectTransform[] = "ObjectTransform"; // field data, 16 numbers

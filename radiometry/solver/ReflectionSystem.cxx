@@ -1,162 +1,551 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/solver/ReflectionSystem.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace radiometry
 {
-
-void ReflectionSystem::Cycle(
-  const std::vector<double>& r, const std::vector<double>& goal, int steps, std::vector<double>& x)
+namespace
 {
-  const std::size_t nb = this->Bands;
-  // As long a cycle as half a gigabyte of basis allows.
-  const double bytes = 8.0 * static_cast<double>(std::max<std::size_t>(1, r.size()));
-  const int Restart = std::clamp(static_cast<int>(5e8 / bytes), 10, LongestCycle);
-  std::vector<std::vector<double>> basis;
-  // Per band: the Hessenberg matrix rotated to upper triangular, and the rotated right-hand side.
-  const auto width = static_cast<std::size_t>(Restart);
-  std::vector<std::vector<double>> h(nb, std::vector<double>((width + 1) * width, 0.0));
-  std::vector<std::vector<double>> cs(nb, std::vector<double>(width));
-  std::vector<std::vector<double>> sn = cs;
-  std::vector<std::vector<double>> g(nb, std::vector<double>(width + 1, 0.0));
-  std::vector<double> inner;
 
-  const auto pushNormalised = [&](const std::vector<double>& v, const std::vector<double>& norms) {
-    basis.push_back(v);
-    for (std::size_t k = 0; k < v.size(); ++k)
-    {
-      const double norm = norms[k % nb];
-      basis.back()[k] = norm > 0.0 ? v[k] / norm : 0.0;
-    }
+constexpr std::size_t Block = 2048; // elements
+constexpr double BasisBytes = 5e8;  // as long a cycle as this holds, within limits
+
+} // namespace
+
+ReflectionSystem::ReflectionSystem(const FormFactorOperator& op, DiffuseScattering scattering,
+  std::size_t columns, std::vector<std::int32_t> component, int threads,
+  const StageProgress& progress)
+  : F(op)
+  , Scattering(std::move(scattering))
+  , N(op.Size())
+  , Columns(columns)
+  , Component(std::move(component))
+  , Threads(threads)
+  , Progress(progress)
+{
+  std::int32_t components = 0;
+  for (const std::int32_t c : this->Component)
+  {
+    components = std::max(components, c + 1);
+  }
+  this->ComponentArea.assign(static_cast<std::size_t>(components), 0.0);
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    this->ComponentArea[static_cast<std::size_t>(this->Component[i])] += op.Areas()[i];
+  }
+}
+
+void ReflectionSystem::Exchange(const Values& x, Values& out, std::size_t columns)
+{
+  out.resize(this->N * columns);
+  this->F.Apply(x.data(), out.data(), static_cast<int>(columns));
+  ++this->Iterations;
+  Report(this->Progress.Listener,
+    this->Progress.Begin +
+      (this->Progress.End - this->Progress.Begin) * (1.0 - 1.0 / (1.0 + 0.1 * this->Iterations)),
+    this->Progress.Name);
+}
+
+ReflectionSystem::Values ReflectionSystem::OverBlocks(std::size_t sums, const Body& body) const
+{
+  const std::size_t blocks = (this->N + Block - 1) / Block;
+  Values partial(blocks * sums, 0.0);
+  const auto one = [&](std::size_t b) {
+    body(b * Block, std::min(this->N, (b + 1) * Block), partial.data() + b * sums);
   };
-  this->Inner(r, r, inner);
-  std::vector<double> norms(nb);
-  for (std::size_t b = 0; b < nb; ++b)
+  if (blocks < 8)
   {
-    norms[b] = std::sqrt(inner[b]);
-    g[b][0] = norms[b];
+    for (std::size_t b = 0; b < blocks; ++b)
+    {
+      one(b);
+    }
   }
-  pushNormalised(r, norms);
+  else
+  {
+    ParallelFor(blocks, this->Threads, {}, one, 1e-9 * Block * static_cast<double>(this->Columns));
+  }
+  Values total(sums, 0.0);
+  for (std::size_t k = 0; k < partial.size(); ++k)
+  {
+    total[k % sums] += partial[k];
+  }
+  return total;
+}
 
-  std::vector<double> w(r.size());
-  int used = 0;
-  for (int k = 0; k < std::min(steps, Restart); ++k)
+void ReflectionSystem::SetLoss(const Values& returned)
+{
+  this->Loss.resize(returned.size());
+  this->LossSum.assign(this->Components() * this->Columns, 0.0);
+  this->LossSquare = this->LossSum;
+  for (std::size_t i = 0; i < this->N; ++i)
   {
-    this->Reflect(basis[static_cast<std::size_t>(k)], w);
-    for (std::size_t i = 0; i < w.size(); ++i)
+    const std::size_t c = static_cast<std::size_t>(this->Component[i]) * this->Columns;
+    for (std::size_t b = 0; b < this->Columns; ++b)
     {
-      w[i] = basis[static_cast<std::size_t>(k)][i] - w[i];
-    }
-    for (int j = 0; j <= k; ++j)
-    {
-      const auto& v = basis[static_cast<std::size_t>(j)];
-      this->Inner(w, v, inner);
-      for (std::size_t b = 0; b < nb; ++b)
-      {
-        h[b][static_cast<std::size_t>(j * Restart + k)] = inner[b];
-      }
-      for (std::size_t i = 0; i < w.size(); ++i)
-      {
-        w[i] -= inner[i % nb] * v[i];
-      }
-    }
-    this->Inner(w, w, inner);
-    bool done = true;
-    for (std::size_t b = 0; b < nb; ++b)
-    {
-      norms[b] = std::sqrt(inner[b]);
-      auto at = [&](
-                  int row) -> double& { return h[b][static_cast<std::size_t>(row * Restart + k)]; };
-      for (int j = 0; j < k; ++j)
-      {
-        const auto q = static_cast<std::size_t>(j);
-        const double upper = cs[b][q] * at(j) + sn[b][q] * at(j + 1);
-        at(j + 1) = -sn[b][q] * at(j) + cs[b][q] * at(j + 1);
-        at(j) = upper;
-      }
-      const double length = std::hypot(at(k), norms[b]);
-      const auto q = static_cast<std::size_t>(k);
-      cs[b][q] = length > 0.0 ? at(k) / length : 1.0;
-      sn[b][q] = length > 0.0 ? norms[b] / length : 0.0;
-      at(k) = length;
-      g[b][q + 1] = -sn[b][q] * g[b][q];
-      g[b][q] *= cs[b][q];
-      // A direction that rounding made of nothing is none.
-      norms[b] = norms[b] > 1e-14 * length ? norms[b] : 0.0;
-      done = done && std::abs(g[b][q + 1]) <= goal[b];
-    }
-    used = k + 1;
-    if (done)
-    {
-      break;
-    }
-    pushNormalised(w, norms);
-  }
-  for (std::size_t b = 0; b < nb; ++b)
-  {
-    std::vector<double> y(static_cast<std::size_t>(used), 0.0);
-    for (int row = used - 1; row >= 0; --row)
-    {
-      double sum = g[b][static_cast<std::size_t>(row)];
-      for (int col = row + 1; col < used; ++col)
-      {
-        sum -=
-          h[b][static_cast<std::size_t>(row * Restart + col)] * y[static_cast<std::size_t>(col)];
-      }
-      const double pivot = h[b][static_cast<std::size_t>(row * Restart + row)];
-      y[static_cast<std::size_t>(row)] = std::abs(pivot) > 1e-300 ? sum / pivot : 0.0;
-    }
-    for (int k = 0; k < used; ++k)
-    {
-      const auto& v = basis[static_cast<std::size_t>(k)];
-      for (std::size_t i = b; i < v.size(); i += nb)
-      {
-        x[i] += y[static_cast<std::size_t>(k)] * v[i];
-      }
+      const double loss = 1.0 - returned[i * this->Columns + b];
+      this->Loss[i * this->Columns + b] = loss;
+      this->LossSum[c + b] += this->F.Areas()[i] * loss;
+      this->LossSquare[c + b] += this->F.Areas()[i] * loss * loss;
     }
   }
 }
 
-std::vector<double> BoundOfInverse(ReflectionSystem& system)
+ReflectionSystem::Values ReflectionSystem::LeastLoss() const
 {
-  const std::vector<double> one(system.N, 1.0);
-  std::vector<double> w = one, r(system.N);
-  double best = std::numeric_limits<double>::infinity();
-  std::vector<double> bound(system.N, std::numeric_limits<double>::infinity());
+  Values least(this->Columns, std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < this->Loss.size(); ++k)
+  {
+    least[k % this->Columns] = std::min(least[k % this->Columns], this->Loss[k]);
+  }
+  return least;
+}
+
+void ReflectionSystem::Blacken(std::size_t component, std::size_t column)
+{
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    if (static_cast<std::size_t>(this->Component[i]) == component)
+    {
+      this->Scattering.Reflectance[i * this->Columns + column] = 0.0;
+      this->Loss[i * this->Columns + column] = 1.0;
+    }
+  }
+  for (std::size_t k = 0; k < this->Scattering.Couplings.size(); ++k)
+  {
+    const auto to = static_cast<std::size_t>(this->Scattering.Couplings[k].To);
+    if (static_cast<std::size_t>(this->Component[to]) == component)
+    {
+      this->Scattering.Transmittance[k * this->Columns + column] = 0.0;
+    }
+  }
+  this->LossSum[component * this->Columns + column] = this->ComponentArea[component];
+  this->LossSquare[component * this->Columns + column] = this->ComponentArea[component];
+}
+
+void ReflectionSystem::AddConstants(const Values& shares, Values& x) const
+{
+  this->OverBlocks(0, [&](std::size_t begin, std::size_t end, double*) {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const double* share =
+        shares.data() + static_cast<std::size_t>(this->Component[i]) * this->Columns;
+      for (std::size_t b = 0; b < this->Columns; ++b)
+      {
+        x[i * this->Columns + b] += share[b];
+      }
+    }
+  });
+}
+
+void ReflectionSystem::Balance(Values& r, Values& x) const
+{
+  Values share(this->LossSum.size(), 0.0);
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    double* sum = share.data() + static_cast<std::size_t>(this->Component[i]) * this->Columns;
+    for (std::size_t b = 0; b < this->Columns; ++b)
+    {
+      sum[b] += this->F.Areas()[i] * r[i * this->Columns + b];
+    }
+  }
+  for (std::size_t k = 0; k < share.size(); ++k)
+  {
+    share[k] = this->LossSum[k] > 0.0 ? share[k] / this->LossSum[k] : 0.0;
+  }
+  this->AddConstants(share, x);
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    const double* s = share.data() + static_cast<std::size_t>(this->Component[i]) * this->Columns;
+    for (std::size_t b = 0; b < this->Columns; ++b)
+    {
+      r[i * this->Columns + b] -= s[b] * this->Loss[i * this->Columns + b];
+    }
+  }
+}
+
+ReflectionSystem::Values ReflectionSystem::ProjectConstants(Values& r) const
+{
+  Values share(this->LossSquare.size(), 0.0);
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    double* sum = share.data() + static_cast<std::size_t>(this->Component[i]) * this->Columns;
+    for (std::size_t b = 0; b < this->Columns; ++b)
+    {
+      const std::size_t k = i * this->Columns + b;
+      sum[b] += this->F.Areas()[i] * this->Loss[k] * r[k];
+    }
+  }
+  for (std::size_t k = 0; k < share.size(); ++k)
+  {
+    share[k] = this->LossSquare[k] > 0.0 ? share[k] / this->LossSquare[k] : 0.0;
+  }
+  this->OverBlocks(0, [&](std::size_t begin, std::size_t end, double*) {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const double* s = share.data() + static_cast<std::size_t>(this->Component[i]) * this->Columns;
+      for (std::size_t b = 0; b < this->Columns; ++b)
+      {
+        r[i * this->Columns + b] -= s[b] * this->Loss[i * this->Columns + b];
+      }
+    }
+  });
+  return share;
+}
+
+ReflectionSystem::Values ReflectionSystem::Inner(const Values& a, const Values& b) const
+{
+  return this->OverBlocks(this->Columns, [&](std::size_t begin, std::size_t end, double* sums) {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      for (std::size_t c = 0; c < this->Columns; ++c)
+      {
+        const std::size_t k = i * this->Columns + c;
+        sums[c] += this->F.Areas()[i] * a[k] * b[k];
+      }
+    }
+  });
+}
+
+void ReflectionSystem::ProjectOuter(Values& r, std::vector<Values>& shares) const
+{
+  for (std::size_t o = 0; o < this->Outer.size(); ++o)
+  {
+    const Values& image = this->Outer[o].second;
+    const Values inner = this->Inner(image, r);
+    for (std::size_t k = 0; k < r.size(); ++k)
+    {
+      r[k] -= inner[k % this->Columns] * image[k];
+    }
+    for (std::size_t c = 0; c < this->Columns; ++c)
+    {
+      shares[o][c] += inner[c];
+    }
+  }
+}
+
+void ReflectionSystem::KeepOuter(Values step, Values image)
+{
+  const double bytes = 16.0 * static_cast<double>(step.size());
+  const auto most = static_cast<std::size_t>(std::clamp(0.4 * BasisBytes / bytes, 2.0, 12.0));
+  const Values norm = this->Norm(image);
+  for (std::size_t k = 0; k < step.size(); ++k)
+  {
+    const double length = norm[k % this->Columns];
+    step[k] = length > 0.0 ? step[k] / length : 0.0;
+    image[k] = length > 0.0 ? image[k] / length : 0.0;
+  }
+  if (this->Outer.size() == most)
+  {
+    this->Outer.erase(this->Outer.begin());
+  }
+  this->Outer.emplace_back(std::move(step), std::move(image));
+}
+
+/// The basis of a cycle and, for each column, its Hessenberg matrix rotated to upper triangular.
+struct ReflectionSystem::Arnoldi
+{
+  Arnoldi(const ReflectionSystem& system, std::size_t width)
+    : S(system)
+    , Width(width)
+    , H(system.Columns, Values((width + 1) * width, 0.0))
+    , Cos(system.Columns, Values(width))
+    , Sin(Cos)
+    , G(system.Columns, Values(width + 1, 0.0))
+  {
+  }
+
+  double& At(std::size_t column, std::size_t row, std::size_t k)
+  {
+    return this->H[column][row * this->Width + k];
+  }
+
+  void Push(const Values& v, const Values& norms)
+  {
+    const std::size_t columns = this->S.Columns;
+    this->Basis.push_back(v);
+    Values& to = this->Basis.back();
+    this->S.OverBlocks(0, [&](std::size_t begin, std::size_t end, double*) {
+      for (std::size_t k = begin * columns; k < end * columns; ++k)
+      {
+        const double norm = norms[k % columns];
+        to[k] = norm > 0.0 ? v[k] / norm : 0.0;
+      }
+    });
+  }
+
+  /// w -= V V^T w, twice where much of it goes: the inner products are added to column k of H.
+  /// Returns the norms of what is left.
+  Values Orthogonalise(Values& w, std::size_t k)
+  {
+    const std::size_t columns = this->S.Columns;
+    const std::vector<double>& areas = this->S.F.Areas();
+    Values norms = this->S.Norm(w);
+    for (int pass = 0; pass < 2; ++pass)
+    {
+      const Values h =
+        this->S.OverBlocks((k + 1) * columns, [&](std::size_t begin, std::size_t end, double* sum) {
+          for (std::size_t j = 0; j <= k; ++j)
+          {
+            const double* v = this->Basis[j].data();
+            for (std::size_t i = begin; i < end; ++i)
+            {
+              for (std::size_t b = 0; b < columns; ++b)
+              {
+                sum[j * columns + b] += areas[i] * v[i * columns + b] * w[i * columns + b];
+              }
+            }
+          }
+        });
+      const Values squares =
+        this->S.OverBlocks(columns, [&](std::size_t begin, std::size_t end, double* sum) {
+          for (std::size_t j = 0; j <= k; ++j)
+          {
+            const double* v = this->Basis[j].data();
+            for (std::size_t i = begin; i < end; ++i)
+            {
+              for (std::size_t b = 0; b < columns; ++b)
+              {
+                w[i * columns + b] -= h[j * columns + b] * v[i * columns + b];
+              }
+            }
+          }
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            for (std::size_t b = 0; b < columns; ++b)
+            {
+              sum[b] += areas[i] * w[i * columns + b] * w[i * columns + b];
+            }
+          }
+        });
+      bool again = false;
+      for (std::size_t b = 0; b < columns; ++b)
+      {
+        for (std::size_t j = 0; j <= k; ++j)
+        {
+          this->At(b, j, k) += h[j * columns + b];
+        }
+        const double left = std::sqrt(squares[b]);
+        again = again || left < 0.3 * norms[b];
+        norms[b] = left;
+      }
+      if (!again)
+      {
+        break;
+      }
+    }
+    return norms;
+  }
+
+  /// Rotates column k of H; true when the residual of each column is below its goal. `norms` are
+  /// those of the new direction, zero where rounding made it of nothing.
+  bool Rotate(std::size_t k, Values& norms, const Values& goal)
+  {
+    bool done = true;
+    for (std::size_t b = 0; b < this->S.Columns; ++b)
+    {
+      for (std::size_t j = 0; j < k; ++j)
+      {
+        const double upper =
+          this->Cos[b][j] * this->At(b, j, k) + this->Sin[b][j] * this->At(b, j + 1, k);
+        this->At(b, j + 1, k) =
+          -this->Sin[b][j] * this->At(b, j, k) + this->Cos[b][j] * this->At(b, j + 1, k);
+        this->At(b, j, k) = upper;
+      }
+      const double length = std::hypot(this->At(b, k, k), norms[b]);
+      this->Cos[b][k] = length > 0.0 ? this->At(b, k, k) / length : 1.0;
+      this->Sin[b][k] = length > 0.0 ? norms[b] / length : 0.0;
+      this->At(b, k, k) = length;
+      this->G[b][k + 1] = -this->Sin[b][k] * this->G[b][k];
+      this->G[b][k] *= this->Cos[b][k];
+      norms[b] = norms[b] > 1e-14 * length ? norms[b] : 0.0;
+      done = done && std::abs(this->G[b][k + 1]) <= goal[b];
+    }
+    return done;
+  }
+
+  /// The coefficients of the step in the basis, and of the residual that it leaves.
+  void Coefficients(std::size_t column, std::size_t used, Values& y, Values& left)
+  {
+    y.assign(used, 0.0);
+    for (std::size_t row = used; row-- > 0;)
+    {
+      double sum = this->G[column][row];
+      for (std::size_t k = row + 1; k < used; ++k)
+      {
+        sum -= this->At(column, row, k) * y[k];
+      }
+      const double pivot = this->At(column, row, row);
+      y[row] = std::abs(pivot) > 1e-300 ? sum / pivot : 0.0;
+    }
+    left.assign(used + 1, 0.0);
+    left[used] = this->G[column][used];
+    for (std::size_t j = used; j-- > 0;)
+    {
+      const double lower = left[j + 1];
+      left[j] = -this->Sin[column][j] * lower;
+      left[j + 1] = this->Cos[column][j] * lower;
+    }
+  }
+
+  const ReflectionSystem& S;
+  std::size_t Width;
+  std::vector<Values> Basis, H, Cos, Sin, G;
+};
+
+void ReflectionSystem::Cycle(const Values& goal, int steps, Values& r, Values& x)
+{
+  const std::size_t columns = this->Columns;
+  this->AddConstants(this->ProjectConstants(r), x);
+  std::vector<Values> outer(this->Outer.size(), Values(columns, 0.0));
+  this->ProjectOuter(r, outer);
+  const auto addOuter = [&](Values& to, double sign) {
+    for (std::size_t o = 0; o < this->Outer.size(); ++o)
+    {
+      for (std::size_t k = 0; k < to.size(); ++k)
+      {
+        to[k] += sign * outer[o][k % columns] * this->Outer[o].first[k];
+      }
+    }
+  };
+  addOuter(x, 1.0);
+
+  const double bytes = 8.0 * static_cast<double>(std::max<std::size_t>(1, r.size()));
+  const int longest = std::clamp(static_cast<int>(BasisBytes / bytes), 10, LongestCycle);
+  Arnoldi arnoldi(*this, static_cast<std::size_t>(std::min(longest, std::max(1, steps))));
+  Values norms = this->Norm(r);
+  bool done = true;
+  for (std::size_t b = 0; b < columns; ++b)
+  {
+    arnoldi.G[b][0] = norms[b];
+    done = done && norms[b] <= goal[b];
+  }
+  if (done)
+  {
+    return;
+  }
+  arnoldi.Push(r, norms);
+
+  Values w(r.size()), scattered;
+  std::vector<Values> constants;                            // of each step
+  std::vector<std::vector<Values>> outerShares;             // of each step
+  std::size_t used = 0;
+  while (used < arnoldi.Width && !done)
+  {
+    const Values& v = arnoldi.Basis[used];
+    this->Scatter(v, scattered);
+    this->Exchange(scattered, w, columns);
+    ++this->Steps;
+    this->OverBlocks(0, [&](std::size_t begin, std::size_t end, double*) {
+      for (std::size_t k = begin * columns; k < end * columns; ++k)
+      {
+        w[k] = v[k] - w[k];
+      }
+    });
+    constants.push_back(this->ProjectConstants(w));
+    outerShares.emplace_back(this->Outer.size(), Values(columns, 0.0));
+    this->ProjectOuter(w, outerShares.back());
+    norms = arnoldi.Orthogonalise(w, used);
+    done = arnoldi.Rotate(used, norms, goal);
+    ++used;
+    arnoldi.Push(w, norms);
+  }
+
+  // The step, its image, and what remains.
+  std::vector<Values> y(columns), left(columns);
+  Values shares(this->LossSum.size(), 0.0);
+  for (Values& o : outer)
+  {
+    o.assign(columns, 0.0);
+  }
+  for (std::size_t b = 0; b < columns; ++b)
+  {
+    arnoldi.Coefficients(b, used, y[b], left[b]);
+    for (std::size_t k = 0; k < used; ++k)
+    {
+      for (std::size_t c = b; c < shares.size(); c += columns)
+      {
+        shares[c] -= y[b][k] * constants[k][c];
+      }
+      for (std::size_t o = 0; o < outer.size(); ++o)
+      {
+        outer[o][b] += y[b][k] * outerShares[k][o][b];
+      }
+    }
+  }
+  Values step(r.size(), 0.0), image = r;
+  this->OverBlocks(0, [&](std::size_t begin, std::size_t end, double*) {
+    std::fill(&r[begin * columns], &r[0] + end * columns, 0.0);
+    for (std::size_t j = 0; j <= used; ++j)
+    {
+      const Values& v = arnoldi.Basis[j];
+      for (std::size_t k = begin * columns; k < end * columns; ++k)
+      {
+        r[k] += left[k % columns][j] * v[k];
+        step[k] += j < used ? y[k % columns][j] * v[k] : 0.0;
+      }
+    }
+    for (std::size_t k = begin * columns; k < end * columns; ++k)
+    {
+      image[k] -= r[k];
+    }
+  });
+  this->AddConstants(shares, step);
+  addOuter(step, -1.0);
+  for (std::size_t k = 0; k < x.size(); ++k)
+  {
+    x[k] += step[k];
+  }
+  if (!done)
+  {
+    this->KeepOuter(std::move(step), std::move(image));
+  }
+}
+
+ReflectionSystem::Values ReflectionSystem::Norm(const Values& v) const
+{
+  Values norm = this->Inner(v, v);
+  for (double& square : norm)
+  {
+    square = std::sqrt(square);
+  }
+  return norm;
+}
+
+ReflectionSystem::Values ReflectionSystem::Greatest(const Values& v) const
+{
+  Values out(this->Columns, 0.0);
+  for (std::size_t k = 0; k < v.size(); ++k)
+  {
+    out[k % this->Columns] = std::max(out[k % this->Columns], std::abs(v[k]));
+  }
+  return out;
+}
+
+ReflectionSystem::Values ReflectionSystem::Mean(const Values& v) const
+{
   double area = 0.0;
-  for (const double a : system.F.Areas())
+  for (const double a : this->ComponentArea)
   {
     area += a;
   }
-  for (int cycle = 0; cycle < 40; ++cycle)
-  {
-    system.Residual(one, w, r);
-    system.Deflate(r, w);
-    system.Residual(one, w, r);
-    double least = std::numeric_limits<double>::infinity(); // of (I - rho F) w
-    double lowest = least, worst = 0.0;
-    for (std::size_t i = 0; i < system.N; ++i)
-    {
-      least = std::min(least, 1.0 - r[i]);
-      lowest = std::min(lowest, w[i]);
-      worst = std::max(worst, std::abs(r[i]));
-    }
-    if (least > 0.0 && lowest > 0.0 && worst < best)
-    {
-      best = worst;
-      for (std::size_t i = 0; i < system.N; ++i)
+  Values out =
+    this->OverBlocks(this->Columns, [&](std::size_t begin, std::size_t end, double* sums) {
+      for (std::size_t i = begin; i < end; ++i)
       {
-        bound[i] = w[i] / least;
+        for (std::size_t b = 0; b < this->Columns; ++b)
+        {
+          sums[b] += this->F.Areas()[i] * std::abs(v[i * this->Columns + b]);
+        }
       }
-    }
-    if (best <= 0.25)
-    {
-      break;
-    }
-    system.Cycle(r, { 0.02 * std::sqrt(area) }, LongestCycle, w);
+    });
+  for (double& m : out)
+  {
+    m /= area;
   }
-  return bound;
+  return out;
 }
 
 } // namespace radiometry

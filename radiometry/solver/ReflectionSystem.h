@@ -3,166 +3,95 @@
 
 #include "radiometry/formfactor/FormFactorOperator.h"
 #include "radiometry/scene/Parallel.h"
+#include "radiometry/solver/DiffuseScattering.h"
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace radiometry
 {
 
-/// The linear system (I - rho F) x = b of several bands, and the iteration on it.
+/// The linear system (I - F R) E = F M for the irradiance E that elements send each other, several
+/// columns (bands, or right-hand sides of one) side by side, and the iteration on it.
+///
+/// In terms of irradiance every row of F R sums to at most one, even where rows of F exceed one
+/// because light comes over mirrors: the matrix is an M-matrix.
 class ReflectionSystem
 {
 public:
-  ReflectionSystem(const FormFactorOperator& op, const std::vector<double>& rho, int bands,
-    const std::vector<std::int32_t>& component, const StageProgress& progress)
-    : F(op)
-    , Rho(rho)
-    , N(op.Size())
-    , Bands(static_cast<std::size_t>(bands))
-    , Component(component)
-    , Progress(progress)
+  using Values = std::vector<double>; // elements x columns
+
+  /// `component` labels elements that exchange light, from 0.
+  ReflectionSystem(const FormFactorOperator& op, DiffuseScattering scattering, std::size_t columns,
+    std::vector<std::int32_t> component, int threads, const StageProgress& progress);
+
+  /// out = F x for `columns` interleaved columns: the one costly step, counted.
+  void Exchange(const Values& x, Values& out, std::size_t columns);
+  /// out = R x
+  void Scatter(const Values& x, Values& out) const
   {
-    std::int32_t components = 0;
-    for (const std::int32_t c : component)
-    {
-      components = std::max(components, c + 1);
-    }
-    this->Loss.assign(static_cast<std::size_t>(components) * this->Bands, 0.0);
-    this->ComponentArea.assign(static_cast<std::size_t>(components), 0.0);
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      const auto c = static_cast<std::size_t>(component[i]);
-      this->ComponentArea[c] += op.Areas()[i];
-      for (std::size_t b = 0; b < this->Bands; ++b)
-      {
-        this->Loss[c * this->Bands + b] +=
-          op.Areas()[i] * (1.0 - rho[i * this->Bands + b] * op.RowSum(i));
-      }
-    }
+    out.resize(x.size());
+    this->Scattering.Apply(x.data(), out.data(), this->Columns);
   }
 
-  /// What a component loses of a unit radiosity, as a share of its area.
-  double LossShare(std::size_t component, std::size_t band) const
+  /// What each row loses of a unit irradiance, (I - F R) 1, from `returned` = F R 1. Needed before
+  /// all that follows.
+  void SetLoss(const Values& returned);
+  /// What a component loses of a unit irradiance, as a share of its area.
+  double LossShare(std::size_t component, std::size_t column) const
   {
-    return this->Loss[component * this->Bands + band] / this->ComponentArea[component];
+    return this->LossSum[component * this->Columns + column] / this->ComponentArea[component];
   }
+  std::size_t Components() const { return this->ComponentArea.size(); }
+  /// The least loss of any row.
+  Values LeastLoss() const;
+  /// Makes a component black in one column: it keeps nothing and sends nothing.
+  void Blacken(std::size_t component, std::size_t column);
 
-  /// out = rho F x
-  void Reflect(const std::vector<double>& x, std::vector<double>& out)
-  {
-    this->F.Apply(x.data(), out.data(), static_cast<int>(this->Bands));
-    for (std::size_t k = 0; k < out.size(); ++k)
-    {
-      out[k] *= this->Rho[k];
-    }
-    ++this->Iterations;
-    Report(this->Progress.Listener,
-      this->Progress.Begin +
-        (this->Progress.End - this->Progress.Begin) * (1.0 - 1.0 / (1.0 + 0.1 * this->Iterations)),
-      this->Progress.Name);
-  }
+  /// Adds to x the constant of each component that balances its energy, and takes its image off
+  /// the residual r.
+  void Balance(Values& r, Values& x) const;
 
-  /// r = b - (I - rho F) x
-  void Residual(const std::vector<double>& b, const std::vector<double>& x, std::vector<double>& r)
-  {
-    this->Reflect(x, r);
-    for (std::size_t k = 0; k < r.size(); ++k)
-    {
-      r[k] = b[k] - x[k] + r[k];
-    }
-  }
+  /// One cycle of GMRES on (I - F R) d = r: adds d to x and takes its image off r. The constants of
+  /// the components and the steps of earlier cycles are kept as directions whose images the
+  /// residual is orthogonal to: slow modes that a restart would forget.
+  ///   Stops  when the norm of each column of r is below its goal, or after `steps` applications
+  void Cycle(const Values& goal, int steps, Values& r, Values& x);
 
-  /// Adds the constant of each component that balances its residual's energy.
-  void Deflate(const std::vector<double>& r, std::vector<double>& x) const
-  {
-    std::vector<double> balance(this->Loss.size(), 0.0);
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      const auto c = static_cast<std::size_t>(this->Component[i]);
-      for (std::size_t b = 0; b < this->Bands; ++b)
-      {
-        balance[c * this->Bands + b] += this->F.Areas()[i] * r[i * this->Bands + b];
-      }
-    }
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      const auto c = static_cast<std::size_t>(this->Component[i]);
-      for (std::size_t b = 0; b < this->Bands; ++b)
-      {
-        // Black elements keep what they emit.
-        const double loss = this->Loss[c * this->Bands + b];
-        if (this->Rho[i * this->Bands + b] > 0.0 && loss > 0.0)
-        {
-          x[i * this->Bands + b] += balance[c * this->Bands + b] / loss;
-        }
-      }
-    }
-  }
-
-  /// Area-weighted inner products of each band.
-  void Inner(
-    const std::vector<double>& a, const std::vector<double>& b, std::vector<double>& out) const
-  {
-    out.assign(this->Bands, 0.0);
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      for (std::size_t k = 0; k < this->Bands; ++k)
-      {
-        out[k] += this->F.Areas()[i] * a[i * this->Bands + k] * b[i * this->Bands + k];
-      }
-    }
-  }
-
-  /// One cycle of GMRES on (I - rho F) d = r, until each band's residual norm is below its goal.
-  void Cycle(const std::vector<double>& r, const std::vector<double>& goal, int steps,
-    std::vector<double>& x);
-
-  /// The band's greatest absolute value.
-  std::vector<double> Greatest(const std::vector<double>& v) const
-  {
-    std::vector<double> out(this->Bands, 0.0);
-    for (std::size_t k = 0; k < v.size(); ++k)
-    {
-      out[k % this->Bands] = std::max(out[k % this->Bands], std::abs(v[k]));
-    }
-    return out;
-  }
-  /// The band's area-weighted mean absolute value.
-  std::vector<double> Mean(const std::vector<double>& v) const
-  {
-    std::vector<double> out(this->Bands, 0.0);
-    double area = 0.0;
-    for (std::size_t i = 0; i < this->N; ++i)
-    {
-      area += this->F.Areas()[i];
-      for (std::size_t b = 0; b < this->Bands; ++b)
-      {
-        out[b] += this->F.Areas()[i] * std::abs(v[i * this->Bands + b]);
-      }
-    }
-    for (double& m : out)
-    {
-      m /= area;
-    }
-    return out;
-  }
+  /// Area-weighted norm, greatest and mean absolute value of each column.
+  Values Norm(const Values& v) const;
+  Values Greatest(const Values& v) const;
+  Values Mean(const Values& v) const;
 
   const FormFactorOperator& F;
-  const std::vector<double>& Rho;
-  std::size_t N, Bands;
-  const std::vector<std::int32_t>& Component;
+  DiffuseScattering Scattering;
+  std::size_t N, Columns;
+  std::vector<std::int32_t> Component;
+  int Threads;
   StageProgress Progress;
-  std::vector<double> Loss, ComponentArea;
-  int Iterations = 0;
+  int Iterations = 0; // applications of the operator
+  int Steps = 0;      // of them, steps of cycles
+
+private:
+  struct Arnoldi;
+  using Body = std::function<void(std::size_t begin, std::size_t end, double* sums)>;
+  /// Runs body over blocks of elements on all threads; adds up their sums in the blocks' order.
+  Values OverBlocks(std::size_t sums, const Body& body) const;
+  /// r -= loss times its share in r of each component (negative: added to x as constants).
+  Values ProjectConstants(Values& r) const;
+  void AddConstants(const Values& shares, Values& x) const;
+  void ProjectOuter(Values& r, std::vector<Values>& shares) const;
+  void KeepOuter(Values step, Values image);
+  Values Inner(const Values& a, const Values& b) const;
+
+  Values Loss;                               // (I - F R) 1, elements x columns
+  Values LossSum, LossSquare, ComponentArea; // components x columns; areas of components
+  std::vector<std::pair<Values, Values>> Outer; // steps of earlier cycles, their unit images
 };
 
 /// The longest cycle of GMRES.
-inline constexpr int LongestCycle = 60;
-
-/// Positive w with (I - rho F) w >= 1, elementwise: its values bound the inverse. Infinite where
-/// none was found.
-std::vector<double> BoundOfInverse(ReflectionSystem& system);
+inline constexpr int LongestCycle = 150;
 
 } // namespace radiometry

@@ -259,3 +259,305 @@ TEST(RadiositySolver, Shortcuts)
   const SphereOperator empty(0, 0.0);
   EXPECT_TRUE(SolveRadiosity(empty, {}, {}, 1).Radiosity.empty());
 }
+
+namespace
+{
+
+/// Rooms whose walls see each other evenly, F_ij = A_j/A of the room, but for shares that look
+/// through openings into another room or out.
+class RoomsOperator : public FormFactorOperator
+{
+public:
+  /// `pass[r][s]`: the share of what room r sees that is room s; what is missing to one is open.
+  RoomsOperator(std::size_t each, std::vector<std::vector<double>> pass)
+    : Each(each)
+    , Pass(std::move(pass))
+    , AreaValues(each * this->Pass.size(), 0.5)
+  {
+  }
+  std::size_t Size() const override { return this->AreaValues.size(); }
+  const std::vector<double>& Areas() const override { return this->AreaValues; }
+  void Apply(const double* B, double* out, int bands) const override
+  {
+    ++this->Calls;
+    const std::size_t rooms = this->Pass.size();
+    for (int b = 0; b < bands; ++b)
+    {
+      std::vector<double> mean(rooms, 0.0);
+      for (std::size_t i = 0; i < this->Size(); ++i)
+      {
+        mean[i / this->Each] += B[i * bands + b] / static_cast<double>(this->Each);
+      }
+      for (std::size_t i = 0; i < this->Size(); ++i)
+      {
+        double sum = 0.0;
+        for (std::size_t s = 0; s < rooms; ++s)
+        {
+          sum += this->Pass[i / this->Each][s] * mean[s];
+        }
+        out[i * bands + b] = sum;
+      }
+    }
+  }
+  double RowSum(std::size_t i, int = 0) const override
+  {
+    double sum = 0.0;
+    for (const double p : this->Pass[i / this->Each])
+    {
+      sum += p;
+    }
+    return sum;
+  }
+  void ApplyError(const double*, double*, double*, int) const override {}
+  std::vector<std::int32_t> Components() const override
+  {
+    return std::vector<std::int32_t>(this->Size(), 0);
+  }
+  std::size_t MemoryBytes() const override { return 0; }
+  std::int64_t Samples() const override { return 0; }
+  ClosureReport Closure() const override { return {}; }
+  std::string Description() const override { return "rooms"; }
+
+  std::size_t Each;
+  std::vector<std::vector<double>> Pass;
+  std::vector<double> AreaValues;
+  mutable int Calls = 0;
+};
+
+} // namespace
+
+TEST(RadiositySolver, CountOfApplications)
+{
+  // What costs is F: as few at reflectance 0.999999 as at 0.5, and a bound that is not far off.
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  const SphereOperator sphere(400, 0.0);
+  for (double rho : { 0.5, 0.9, 0.9999, 0.999999 })
+  {
+    std::vector<double> source(400, 0.0), reflectance(400);
+    for (std::size_t i = 0; i < 400; ++i)
+    {
+      source[i] = u(random) < 0.1 ? u(random) : 0.0;
+      reflectance[i] = 1.0 - 2.0 * (1.0 - rho) * u(random);
+    }
+    sphere.Calls = 0;
+    const SolveResult r = SolveRadiosity(sphere, reflectance, source, 1, { 1e-6 });
+    EXPECT_EQ(sphere.Calls, r.Iterations);
+    EXPECT_LE(r.Iterations, 8) << rho;
+  }
+  const ChainOperator chain(120, 0.01);
+  for (double rho : { 0.5, 0.9, 0.9999, 0.999999 })
+  {
+    std::vector<double> source(120, 0.0);
+    source[0] = 1.0;
+    const SolveResult r =
+      SolveRadiosity(chain, std::vector<double>(120, rho), source, 1, { 1e-6, 3000 });
+    EXPECT_LE(r.Iterations, 140) << rho; // as slow a mixing as a row of 60 rooms, one by one
+  }
+}
+
+TEST(RadiositySolver, RoomsJoinedByAPinhole)
+{
+  // Two rooms of one size, the first with a source M, joined by a share p of what each sees:
+  // E1 = (1-p) B1 + p B2, E2 = p B1 + (1-p) B2. With B = M + rho E, sum and difference decouple:
+  // E1 + E2 = m/(1 - rho), E1 - E2 = (1 - 2p) m/(1 - (1 - 2p) rho), m the mean of M.
+  for (double p : { 1e-3, 1e-6 })
+  {
+    for (double rho : { 0.9, 0.9999, 0.999999 })
+    {
+      const RoomsOperator rooms(50, { { 1.0 - p, p }, { p, 1.0 - p } });
+      std::vector<double> source(100, 0.0);
+      source[7] = 50.0;
+      const SolveResult r =
+        SolveRadiosity(rooms, std::vector<double>(100, rho), source, 1, { 1e-7 });
+      const double sum = 1.0 / (1.0 - rho);
+      const double difference = (1.0 - 2.0 * p) / (1.0 - (1.0 - 2.0 * p) * rho);
+      const double e[2] = { 0.5 * (sum + difference), 0.5 * (sum - difference) };
+      for (std::size_t i = 0; i < 100; ++i)
+      {
+        EXPECT_NEAR(r.Irradiance[i] / e[i / 50], 1.0, 1e-6) << p << " " << rho;
+        EXPECT_LE(std::abs(r.Irradiance[i] - e[i / 50]), r.Error[i]) << p << " " << rho;
+      }
+      EXPECT_LE(r.Error[0], 2e-6 * e[0]);
+      EXPECT_LE(r.Iterations, 10) << p << " " << rho;
+    }
+  }
+}
+
+TEST(RadiositySolver, PinholeInAWhiteRoom)
+{
+  // Reflectance 1 and an opening of a share o: E = (1 - o) m/o.
+  for (double o : { 1e-2, 1e-5, 1e-8 })
+  {
+    const RoomsOperator room(60, { { 1.0 - o } });
+    std::vector<double> source(60, 0.0);
+    source[3] = 60.0;
+    const SolveResult r = SolveRadiosity(room, std::vector<double>(60, 1.0), source, 1, { 1e-7 });
+    EXPECT_NEAR(r.Irradiance[11] * o / (1.0 - o), 1.0, 1e-6) << o;
+    EXPECT_LE(r.Iterations, 6);
+  }
+}
+
+TEST(RadiositySolver, BandsOfVeryDifferentReflectance)
+{
+  const SphereOperator sphere(200, 0.0);
+  const std::vector<double> band{ 0.0, 0.3, 0.99, 0.999999 };
+  std::vector<double> rho(800), source(800, 0.0);
+  for (std::size_t k = 0; k < 800; ++k)
+  {
+    rho[k] = band[k % 4];
+    source[k] = k / 4 == 5 ? 1.0 : 0.0;
+  }
+  const SolveResult r = SolveRadiosity(sphere, rho, source, 4, { 1e-6 });
+  for (std::size_t k = 0; k < 800; ++k)
+  {
+    const double e = sphere.AreaValues[5] / sphere.Total[0] / (1.0 - band[k % 4]);
+    EXPECT_NEAR(r.Irradiance[k] / e, 1.0, 1e-6);
+    // The bound of a dark band does not suffer from the bright one.
+    EXPECT_LE(r.Error[k], 3e-6 * e + 3e-6 * sphere.AreaValues[5] / sphere.Total[0]) << k % 4;
+  }
+  EXPECT_LE(r.Iterations, 8);
+}
+
+TEST(RadiositySolver, WhiteInOneBandOrAnother)
+{
+  // Half of the sphere is white in one band, half in the other: each band loses light, and no
+  // cell's greatest reflectance is below one.
+  const SphereOperator sphere(100, 0.0);
+  std::vector<double> rho(200), source(200, 0.1);
+  double area[2] = { 0.0, 0.0 };
+  for (std::size_t i = 0; i < 100; ++i)
+  {
+    rho[2 * i] = i % 2 ? 1.0 : 0.4;
+    rho[2 * i + 1] = i % 2 ? 0.4 : 1.0;
+    area[i % 2] += sphere.AreaValues[i];
+  }
+  const SolveResult r = SolveRadiosity(sphere, rho, source, 2, { 1e-8 });
+  for (std::size_t b = 0; b < 2; ++b)
+  {
+    const double e = 0.1 * sphere.Total[0] / (0.6 * area[b]);
+    EXPECT_NEAR(r.Irradiance[40 + b] / e, 1.0, 1e-7);
+    EXPECT_LE(std::abs(r.Irradiance[40 + b] - e), r.Error[40 + b]);
+    EXPECT_LE(r.Error[40 + b], 1e-6 * e);
+  }
+}
+
+TEST(RadiositySolver, BeginsFromAnEarlierSolution)
+{
+  const ChainOperator chain(120, 0.01);
+  std::vector<double> rho(120, 0.95), source(120, 0.0);
+  source[0] = 1.0;
+  const SolveResult first = SolveRadiosity(chain, rho, source, 1, { 1e-7, 3000 });
+  SolveOptions again{ 1e-7, 3000 };
+  again.Guess = &first.Irradiance;
+  again.InverseBound = &first.InverseBound;
+  const SolveResult same = SolveRadiosity(chain, rho, source, 1, again);
+  EXPECT_LE(same.Iterations, 3);
+  source[0] = 1.05;
+  const SolveResult dimmed = SolveRadiosity(chain, rho, source, 1, again);
+  EXPECT_LT(dimmed.Iterations, first.Iterations);
+  for (std::size_t i = 0; i < 120; ++i)
+  {
+    EXPECT_NEAR(dimmed.Irradiance[i], 1.05 * first.Irradiance[i],
+      dimmed.Error[i] + 1.05 * first.Error[i]);
+  }
+  // A bound of other reflectances is not believed.
+  std::fill(rho.begin(), rho.end(), 0.9999);
+  const SolveResult white = SolveRadiosity(chain, rho, source, 1, again);
+  double absorbed = 0.0;
+  for (std::size_t i = 0; i < 120; ++i)
+  {
+    absorbed += 1e-4 * white.Irradiance[i];
+  }
+  EXPECT_NEAR(absorbed, 1.05, 1e-6);
+  EXPECT_GT(white.InverseBound[0], 1e3);
+}
+
+TEST(RadiositySolver, RowsAboveOneOverMirrors)
+{
+  // A sphere of a share s of mirror (reflectance m, diffuse d) in a wall of reflectance rho: what
+  // comes over the mirror adds m s of all that is seen, again and again: F_ij = A_j/A /(1 - m s)
+  // in band 0; no mirror in band 1.
+  class MirrorOperator : public SphereOperator
+  {
+  public:
+    MirrorOperator()
+      : SphereOperator(80, 0.0)
+    {
+    }
+    void Apply(const double* B, double* out, int bands) const override
+    {
+      EXPECT_EQ(bands, 2);
+      SphereOperator::Apply(B, out, bands);
+      for (std::size_t i = 0; i < this->Size(); ++i)
+      {
+        out[2 * i] *= this->Gain;
+      }
+    }
+    int Bands() const override { return 2; }
+    double RowSum(std::size_t, int band = 0) const override { return band ? 1.0 : this->Gain; }
+    double Gain = 1.0;
+  } op;
+  double mirror = 0.0;
+  std::vector<double> rho(160), source(160, 0.0);
+  for (std::size_t i = 0; i < 80; ++i)
+  {
+    mirror += i < 40 ? op.AreaValues[i] / op.Total[0] : 0.0;
+    rho[2 * i] = i < 40 ? 0.05 : 0.999;
+    rho[2 * i + 1] = i < 40 ? 0.3 : 0.9;
+  }
+  op.Gain = 1.0 / (1.0 - 0.9 * mirror);
+  EXPECT_GT(op.RowSum(0, 0), 1.5);
+  source[0] = source[1] = 1.0;
+  const SolveResult r = SolveRadiosity(op, rho, source, 2, { 1e-8 });
+  for (std::size_t b = 0; b < 2; ++b)
+  {
+    const double gain = b ? 1.0 : op.Gain;
+    const double reflected = mirror * rho[b] + (1.0 - mirror) * rho[80 + b];
+    const double e = gain * op.AreaValues[0] / op.Total[0] / (1.0 - gain * reflected);
+    for (std::size_t i = 0; i < 80; ++i)
+    {
+      EXPECT_NEAR(r.Irradiance[2 * i + b] / e, 1.0, 1e-7);
+      EXPECT_LE(std::abs(r.Irradiance[2 * i + b] - e), r.Error[2 * i + b]);
+    }
+  }
+}
+
+TEST(RadiositySolver, SheetThatDiffuses)
+{
+  // Two spherical rooms, black but for a sheet of area A1 between them (element 0 of one, element
+  // 1 of the other): its sides reflect rho and let tau through.
+  // Room k: E_k = (sum A M)_k/A_k with all walls reflecting r; nodes: walls and sheet side.
+  const SphereOperator rooms(100, 0.0, 2); // even elements room 0, odd room 1
+  DiffuseScattering scattering(std::vector<double>(100, 0.6));
+  scattering.Reflectance[0] = scattering.Reflectance[1] = 0.25;
+  scattering.Couplings = { { 0, 1 }, { 1, 0 } };
+  scattering.Transmittance = { 0.7, 0.7 };
+  std::vector<double> source(100, 0.0);
+  source[8] = 2.0;
+  const SolveResult r = SolveRadiosity(rooms, scattering, source, 1, { 1e-9 });
+  // E0 (A0 - sum A rho)_0 - E1 A_0(sheet) tau = A M, and the like of room 1.
+  double kept[2] = { 0.0, 0.0 };
+  for (std::size_t i = 0; i < 100; ++i)
+  {
+    kept[i % 2] += rooms.AreaValues[i] * (1.0 - scattering.Reflectance[i]);
+  }
+  const double over[2] = { rooms.AreaValues[1] * 0.7, rooms.AreaValues[0] * 0.7 };
+  // kept0 E0 - A_0 tau E1 = A8 M;  -A_1 tau E0 + kept1 E1 = 0
+  const double det = kept[0] * kept[1] - over[0] * over[1];
+  const double e0 = kept[1] * rooms.AreaValues[8] * 2.0 / det;
+  const double e1 = over[0] * rooms.AreaValues[8] * 2.0 / det;
+  for (std::size_t i = 0; i < 100; ++i)
+  {
+    EXPECT_NEAR(r.Irradiance[i] / (i % 2 ? e1 : e0), 1.0, 1e-8);
+    EXPECT_LE(std::abs(r.Irradiance[i] - (i % 2 ? e1 : e0)), r.Error[i] + 1e-15);
+  }
+  EXPECT_NEAR(r.Radiosity[1], 0.25 * r.Irradiance[1] + 0.7 * r.Irradiance[0], 1e-12);
+
+  // A sheet that loses nothing joins two white rooms: lossless together, if either has light.
+  DiffuseScattering white(std::vector<double>(100, 1.0));
+  white.Reflectance[0] = white.Reflectance[1] = 0.3;
+  white.Couplings = scattering.Couplings;
+  white.Transmittance = scattering.Transmittance;
+  EXPECT_THROW(SolveRadiosity(rooms, white, source, 1), InputError);
+}
