@@ -70,7 +70,7 @@ void Complete(FieldValues& field, const char* where)
 
 PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   const std::vector<SurfacePoint>& points, bool cells, const std::vector<EffectSwitch>& switches,
-  RadiosityOptions options, Monitor* monitor)
+  RadiosityOptions options, Monitor* monitor, RadiosityCache* cache)
 {
   Report(monitor, 0.0, "planning");
   EffectAbilities abilities;
@@ -91,9 +91,11 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   options.Environment = plan.Simulates(Effect::Environment);
   options.Transmission = plan.Simulates(Effect::Transmission);
 
-  const OcclusionScene occluders(scene);
   PlannedRadiosity out;
-  RadiositySimulation simulation(scene, occluders, options);
+  RadiosityCache own;
+  RadiosityCache& kept = cache ? *cache : own;
+  const OcclusionScene& occluders = kept.Occluders(scene);
+  RadiositySimulation simulation(scene, options, kept);
   const double share = points.empty() ? 0.98 : (cells ? 0.8 : 0.6);
   out.Cells = simulation.Run({ monitor, 0.02, share, "radiosity" });
   const int sides = options.BackFaces ? 2 : 1;

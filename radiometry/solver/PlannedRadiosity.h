@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/effects/EffectPlan.h"
+#include "radiometry/solver/RadiosityCache.h"
 #include "radiometry/solver/RadiositySimulation.h"
 
 #include <array>
@@ -21,9 +22,9 @@ struct PlannedRadiosity
 
 /// Plans the effects of a scene, simulates those it calls for and bounds those left out.
 /// `options`' effect flags are set by the plan. Sensors (points without a triangle) have no
-/// radiosity: theirs is 0.
+/// radiosity: theirs is 0. `cache` (may be null): what the run before left, and what this leaves.
 PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   const std::vector<SurfacePoint>& points, bool cells, const std::vector<EffectSwitch>& switches,
-  RadiosityOptions options, Monitor* monitor = nullptr);
+  RadiosityOptions options, Monitor* monitor = nullptr, RadiosityCache* cache = nullptr);
 
 } // namespace radiometry

@@ -2,6 +2,7 @@
 #include "radiometry/solver/RadiosityLevel.h"
 
 #include "radiometry/formfactor/GroupedOperator.h"
+#include "radiometry/solver/ElementOverlap.h"
 #include "radiometry/solver/RadiositySolver.h"
 
 #include <algorithm>
@@ -19,14 +20,21 @@ using Values = RadiosityLevel::Values;
 constexpr std::size_t EmitterPairs = 4000000;
 constexpr double DiscretisationSafety = 2.0;
 
-/// The system solved with one unknown for each group of elements.
+/// The system solved with one unknown for each group of elements. `guess`: what may leave the
+/// elements; null: nothing is known.
 SolveResult SolveGrouped(const GroupedOperator& grouped, const Values& rho, const Values& source,
-  int bands, const SolveOptions& options, const StageProgress& stage)
+  int bands, SolveOptions options, const Values* guess, const StageProgress& stage)
 {
   const std::size_t values = grouped.Size() * static_cast<std::size_t>(bands);
-  Values groupRho(values), groupSource(values);
+  Values groupRho(values), groupSource(values), groupGuess;
   grouped.Restrict(rho.data(), groupRho.data(), bands);
   grouped.Restrict(source.data(), groupSource.data(), bands);
+  if (guess)
+  {
+    groupGuess.resize(values);
+    grouped.Restrict(guess->data(), groupGuess.data(), bands);
+    options.Guess = &groupGuess;
+  }
   return SolveRadiosity(grouped, groupRho, groupSource, bands, options, {}, stage);
 }
 
@@ -86,46 +94,148 @@ DirectOptions RadiosityContext::Direct(double secondsLeft) const
 
 RadiosityLevel::RadiosityLevel(const RadiosityContext& context, ElementSet set)
   : Elements(std::move(set))
-  , Optics(context.Geometry, Elements, context.Options.Emission)
+  , Optics(context.Geometry, Elements, false)
+{
+  this->Prepare(context);
+}
+
+void RadiosityLevel::Prepare(const RadiosityContext& context)
 {
   const std::size_t values = this->Elements.Size() * context.Bands;
-  for (Values* v :
-    { &this->First, &this->FirstError, &this->Leaving, &this->Irradiance, &this->DirectError,
-      &this->FormFactorError, &this->VisibilityError, &this->Discretisation, &this->SolverError })
+  this->Optics = ElementOptics(context.Geometry, this->Elements, context.Options.Emission);
+  for (Values* v : { &this->First, &this->FirstError, &this->Irradiance, &this->DirectError,
+         &this->FormFactorError, &this->VisibilityError, &this->Discretisation,
+         &this->SolverError })
   {
     v->assign(values, 0.0);
   }
-  if (context.Options.Emission)
+  this->HasGuess = this->HasGuess && this->Leaving.size() == values;
+  this->Leaving.resize(values, 0.0);
+  const auto positive = [](double m) { return m > 0.0; };
+  this->Emitters = {};
+  if (std::any_of(this->Optics.Exitance.begin(), this->Optics.Exitance.end(), positive))
   {
     this->Emitters =
       SmallEmitters(context.Geometry, this->Elements, context.Options.BackFaces, EmitterPairs);
   }
 }
 
-void RadiosityLevel::IlluminateByLights(
-  const RadiosityContext& context, double secondsLeft, const StageProgress& stage)
+void RadiosityLevel::BeginFrom(const RadiosityLevel& earlier, std::size_t bands)
 {
-  DirectResult direct = ComputeDirectIrradiance(context.Geometry, context.Occluders,
-    this->Elements.GetPatches(), context.Direct(secondsLeft), stage);
-  this->First = std::move(direct.Irradiance);
-  this->FirstError = std::move(direct.Error);
-  this->Irradiance = this->First;
-  this->DirectError = this->FirstError;
+  const std::vector<ElementOrigin> origin = FindOrigins(this->Elements, earlier.Elements);
+  for (std::size_t e = 0; e < origin.size(); ++e)
+  {
+    if (origin[e].Element >= 0)
+    {
+      const std::size_t from = static_cast<std::size_t>(origin[e].Element) * bands;
+      std::copy_n(earlier.Leaving.data() + from, bands, this->Leaving.data() + e * bands);
+    }
+  }
+  this->HasGuess = true;
 }
 
-void RadiosityLevel::IlluminateByEmitters(
-  const RadiosityContext& context, const StageProgress& stage)
+std::size_t RadiosityLevel::MemoryBytes() const
 {
+  std::size_t bytes = this->F ? this->F->MemoryBytes() : 0;
+  bytes += this->Elements.Size() * (sizeof(Patch) + 64);
+  for (const Values* v : { &this->First, &this->FirstError, &this->Leaving, &this->Irradiance,
+         &this->DirectError, &this->FormFactorError, &this->VisibilityError, &this->Discretisation,
+         &this->SolverError, &this->InverseBound })
+  {
+    bytes += v->size() * sizeof(double);
+  }
+  return bytes;
+}
+
+/// Lights and emitters at some of the elements. `knownMean`: what lights give on average, where that
+/// is known from others; negative: of these.
+void RadiosityLevel::AddLights(const RadiosityContext& context, const std::vector<Patch>& patches,
+  double knownMean, double secondsLeft, const StageProgress& stage, Values& light, Values& error)
+{
+  StageProgress part = stage;
+  part.End = this->Emitters.Empty() ? stage.End : 0.5 * (stage.Begin + stage.End);
+  DirectOptions options = context.Direct(secondsLeft);
+  if (knownMean >= 0.0)
+  {
+    options.AbsoluteTolerance = std::max(
+      options.AbsoluteTolerance, options.RelativeTolerance * options.MeanShare * knownMean);
+    options.MeanShare = 0.0;
+  }
+  DirectResult direct =
+    ComputeDirectIrradiance(context.Geometry, context.Occluders, patches, options, part);
+  this->TimedOut = this->TimedOut || direct.TimedOut;
+  light = std::move(direct.Irradiance);
+  error = std::move(direct.Error);
+  if (knownMean < 0.0)
+  {
+    double sum = 0.0, area = 0.0;
+    for (std::size_t k = 0; k < light.size(); ++k)
+    {
+      const double a = Area(patches[k / context.Bands].Corners);
+      sum += a * light[k];
+      area += a;
+    }
+    this->LightMean = area > 0.0 ? sum / area : 0.0;
+  }
   if (this->Emitters.Empty())
   {
     return;
   }
+  part.Begin = part.End;
+  part.End = stage.End;
+  part.Name = "emitters";
+  ExchangeOptions sight = context.Sight();
+  sight.RelativeTolerance = context.Options.RelativeTolerance;
   const EmitterResult e = ComputeEmitterIrradiance(
-    context.Geometry, context.Occluders, this->Elements.GetPatches(), this->Emitters, context.Sight(), stage);
-  for (std::size_t k = 0; k < this->First.size(); ++k)
+    context.Geometry, context.Occluders, patches, this->Emitters, sight, part);
+  for (std::size_t k = 0; k < light.size(); ++k)
   {
-    this->First[k] += e.Irradiance[k];
-    this->FirstError[k] = std::hypot(this->FirstError[k], e.Error[k]);
+    light[k] += e.Irradiance[k];
+    error[k] = std::hypot(error[k], e.Error[k]);
+  }
+}
+
+void RadiosityLevel::Illuminate(const RadiosityContext& context, double secondsLeft,
+  const RadiosityLevel* earlier, const StageProgress& stage)
+{
+  // What only time kept from being found is not worth keeping.
+  constexpr double good = 0.25;
+  const std::size_t nb = context.Bands;
+  const std::vector<Patch>& patches = this->Elements.GetPatches();
+  this->TimedOut = false;
+  if (!earlier || earlier->Emitters.Empty() != this->Emitters.Empty())
+  {
+    this->AddLights(context, patches, -1.0, secondsLeft, stage, this->First, this->FirstError);
+  }
+  else
+  {
+    const std::vector<ElementOrigin> origin = FindOrigins(this->Elements, earlier->Elements);
+    std::vector<std::size_t> fresh;
+    std::vector<Patch> those;
+    for (std::size_t e = 0; e < patches.size(); ++e)
+    {
+      const std::size_t from = static_cast<std::size_t>(std::max(0, origin[e].Element)) * nb;
+      bool kept = origin[e].Same;
+      for (std::size_t b = 0; kept && b < nb; ++b)
+      {
+        this->First[e * nb + b] = earlier->First[from + b];
+        this->FirstError[e * nb + b] = earlier->FirstError[from + b];
+        kept = !earlier->TimedOut || earlier->FirstError[from + b] <= good * earlier->First[from + b];
+      }
+      if (!kept)
+      {
+        fresh.push_back(e);
+        those.push_back(patches[e]);
+      }
+    }
+    this->LightMean = earlier->LightMean;
+    Values light, error;
+    this->AddLights(context, those, this->LightMean, secondsLeft, stage, light, error);
+    for (std::size_t k = 0; k < fresh.size(); ++k)
+    {
+      std::copy_n(light.data() + k * nb, nb, this->First.data() + fresh[k] * nb);
+      std::copy_n(error.data() + k * nb, nb, this->FirstError.data() + fresh[k] * nb);
+    }
   }
   this->Irradiance = this->First;
   this->DirectError = this->FirstError;
@@ -151,20 +261,29 @@ void RadiosityLevel::Solve(
 
   SolveOptions options;
   options.Tolerance = std::clamp(1e-3 * context.Options.RelativeTolerance, 1e-9, 1e-5);
-  // A second solve of the same elements begins where the first ended.
-  const Values guess = this->Leaving;
-  if (!this->InverseBound.empty())
+  const Values guess = this->HasGuess ? this->Leaving : Values();
+  options.Guess = this->HasGuess ? &guess : nullptr;
+  // The bound of an inverse holds for all that reflects no more.
+  Values greatest(n, 0.0);
+  for (std::size_t k = 0; k < values; ++k)
   {
-    options.InverseBound = &this->InverseBound;
-    options.Guess = perCell ? nullptr : &guess;
+    greatest[k / context.Bands] = std::max(greatest[k / context.Bands], rho[k]);
   }
+  if (!this->InverseBound.empty() &&
+    !std::equal(greatest.begin(), greatest.end(), this->BoundedReflectance.begin(),
+      [](double now, double before) { return now <= before; }))
+  {
+    this->InverseBound.clear();
+  }
+  options.InverseBound = this->InverseBound.empty() ? nullptr : &this->InverseBound;
   SolveResult r;
   if (perCell)
   {
     std::size_t count = 0;
     const std::vector<std::int32_t> group = this->Elements.CellGroups(count);
     const GroupedOperator grouped(*this->F, group, count);
-    r = SolveGrouped(grouped, rho, source, bands, options, stage);
+    r = SolveGrouped(
+      grouped, rho, source, bands, options, this->HasGuess ? &guess : nullptr, stage);
     grouped.Prolong(r.Radiosity.data(), this->Leaving.data(), bands);
     grouped.Prolong(r.Error.data(), this->SolverError.data(), bands);
     this->F->Apply(this->Leaving.data(), gathered.data(), bands);
@@ -182,9 +301,11 @@ void RadiosityLevel::Solve(
     gathered = std::move(r.Irradiance);
   }
   this->Iterations += r.Iterations;
+  this->HasGuess = true;
   if (this->InverseBound.empty())
   {
     this->InverseBound = std::move(r.InverseBound);
+    this->BoundedReflectance = std::move(greatest);
   }
   for (std::size_t k = 0; k < values; ++k)
   {
@@ -288,7 +409,7 @@ void RadiosityLevel::Discretise(const RadiosityContext& context, const Values& r
     std::size_t count = 0;
     std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, levels, count);
     const GroupedOperator grouped(*this->F, std::move(group), count);
-    const SolveResult coarse = SolveGrouped(grouped, rho, source, bands, rough, stage);
+    const SolveResult coarse = SolveGrouped(grouped, rho, source, bands, rough, &finer, stage);
     Values merged(values);
     grouped.Prolong(coarse.Radiosity.data(), merged.data(), bands);
     for (std::size_t k = 0; k < values; ++k)

@@ -44,10 +44,16 @@ struct RadiosityLevel
 
   RadiosityLevel(const RadiosityContext& context, ElementSet set);
 
-  /// Direct light, and emitters that are few and small as lights.
-  void IlluminateByLights(
-    const RadiosityContext& context, double secondsLeft, const StageProgress& stage);
-  void IlluminateByEmitters(const RadiosityContext& context, const StageProgress& stage);
+  /// For the optics of a scene of the same geometry: nothing is lit, and what left the elements
+  /// before is where the next solve begins.
+  void Prepare(const RadiosityContext& context);
+  /// What leaves other elements as where the first solve begins.
+  void BeginFrom(const RadiosityLevel& earlier, std::size_t bands);
+
+  /// Direct light, and emitters that are few and small as lights. Elements that an earlier level
+  /// (of the same lights; may be null) has too keep what was found there.
+  void Illuminate(const RadiosityContext& context, double secondsLeft,
+    const RadiosityLevel* earlier, const StageProgress& stage);
 
   /// Elements whose first light differs from their neighbours' by more flux than the tolerance
   /// allows (a spot's edge, a shadow, light caught in a gap): worth dividing before anything
@@ -59,6 +65,12 @@ struct RadiosityLevel
   /// crowded first, at most `most`.
   std::vector<std::uint8_t> Crowded(
     const RadiosityContext& context, std::size_t most, const StageProgress& stage) const;
+
+  /// Elements whose radiosity differs most from their neighbours', each by the flux that this puts
+  /// in the wrong place and by how much of it reaches elements marked in `unfinished`: those that
+  /// make up three quarters of the harm (bulk criterion: Doerfler 1996), at most `most`.
+  std::vector<std::uint8_t> Harmful(const RadiosityContext& context,
+    const std::vector<std::uint8_t>& unfinished, std::size_t most) const;
 
   /// Radiosity and irradiance by the operator, with their errors. `discretise`: estimate the error
   /// of constant elements too (else the last estimate stays). May be called again when the operator
@@ -74,12 +86,26 @@ struct RadiosityLevel
   Values Irradiance;  // all
   Values DirectError; // FirstError and what it adds by reflection
   Values FormFactorError, VisibilityError, Discretisation, SolverError;
+  RadiosityMethod Method = RadiosityMethod::Auto; // F's
+  double TargetArea = 0.0;      // that no element exceeds, m^2
+  double Tolerance = 0.0;       // of F
+  double ExchangeSeconds = 0.0; // that F took
+  int Rays = 0;                 // of each element at first; 0: as always
+  bool HasGuess = false;        // Leaving is worth beginning from
+  double LightMean = 0.0; // of what lights give, over the elements
+  bool TimedOut = false;  // lights were not all looked at
   std::unique_ptr<FormFactorOperator> F;
   MonteCarloOperator* Carlo = nullptr; // F, when it is one
   int Iterations = 0;
   Values InverseBound; // of the system, from its first solve
+  Values BoundedReflectance; // of each element's most reflecting band, that it holds up to
+
+  /// Of operator and elements.
+  std::size_t MemoryBytes() const;
 
 private:
+  void AddLights(const RadiosityContext& context, const std::vector<Patch>& patches,
+    double knownMean, double secondsLeft, const StageProgress& stage, Values& light, Values& error);
   void PoolSampling(const RadiosityContext& context);
   void Discretise(const RadiosityContext& context, const Values& rho, const Values& source,
     const Values& gathered, const StageProgress& stage);

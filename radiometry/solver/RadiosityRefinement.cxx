@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/geometry/Sampling.h"
-#include "radiometry/solver/RadiosityLevel.h"
+#include "radiometry/solver/RadiosityRun.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,9 @@ using Values = RadiosityLevel::Values;
 
 /// Share of all first light, times the tolerance, that an element may put in the wrong place.
 constexpr double UnevenShare = 3e-3;
+constexpr int FinerRounds = 8;
+/// Of the harm that uneven elements do, what those that are divided do.
+constexpr double BulkShare = 0.75;
 
 } // namespace
 
@@ -73,6 +76,56 @@ std::vector<std::uint8_t> RadiosityLevel::Uneven(
   return marked;
 }
 
+std::vector<std::uint8_t> RadiosityLevel::Harmful(const RadiosityContext& context,
+  const std::vector<std::uint8_t>& unfinished, std::size_t most) const
+{
+  const std::size_t n = this->Elements.Size();
+  const std::size_t nb = context.Bands;
+  const std::vector<double>& areas = this->Elements.GetAreas();
+  std::size_t count = 0;
+  const std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, 1, count);
+  Values mean(count * nb, 0.0), groupArea(count, 0.0), wanting(n), seen(n);
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    const auto g = static_cast<std::size_t>(group[e]);
+    groupArea[g] += areas[e];
+    wanting[e] = unfinished[e];
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      mean[g * nb + b] += areas[e] * this->Leaving[e * nb + b];
+    }
+  }
+  // By reciprocity, what would reach an element from the unfinished ones is what of its own would
+  // reach them.
+  this->F->Apply(wanting.data(), seen.data(), 1);
+  double all = 0.0;
+  std::vector<std::pair<double, std::size_t>> harm;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    const auto g = static_cast<std::size_t>(group[e]);
+    double off = 0.0;
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      off = std::max(off, std::abs(this->Leaving[e * nb + b] - mean[g * nb + b] / groupArea[g]));
+    }
+    const double h = areas[e] * off * std::max(0.0, seen[e]);
+    all += h;
+    if (h > 0.0)
+    {
+      harm.emplace_back(-h, e);
+    }
+  }
+  std::sort(harm.begin(), harm.end());
+  std::vector<std::uint8_t> marked(n, 0);
+  double done = 0.0;
+  for (std::size_t k = 0; k < std::min(most, harm.size()) && done < BulkShare * all; ++k)
+  {
+    done -= harm[k].first;
+    marked[harm[k].second] = 1;
+  }
+  return marked;
+}
+
 std::vector<std::uint8_t> RadiosityLevel::Crowded(
   const RadiosityContext& context, std::size_t most, const StageProgress& stage) const
 {
@@ -127,6 +180,52 @@ std::vector<std::uint8_t> RadiosityLevel::Crowded(
     marked[crowded[k].second] = 1;
   }
   return marked;
+}
+
+std::unique_ptr<RadiosityLevel> RadiosityRun::RefineByLight(ElementSet elements, std::size_t room,
+  std::size_t uneven, const RadiosityLevel* earlier, bool& complete, const StageProgress& stage)
+{
+  const double width = stage.End - stage.Begin;
+  std::unique_ptr<RadiosityLevel> before;
+  for (int round = 0;; ++round)
+  {
+    StageProgress part = stage;
+    part.Begin = stage.Begin + width * (1.0 - std::pow(0.5, round));
+    part.End = 0.5 * (part.Begin + stage.End);
+    auto level = std::make_unique<RadiosityLevel>(this->Context, elements);
+    this->Timed("direct light", [&] {
+      level->Illuminate(this->Context, this->Left(), before ? before.get() : earlier, part);
+    });
+    const std::size_t n = elements.Size();
+    if (this->Context.Options.Refinement == RefinementMode::Off || round == FinerRounds ||
+      room <= n + 6 || level->TimedOut || this->Left() < 0.0)
+    {
+      return level;
+    }
+    const auto share = [n](std::size_t most) { return most > n ? (most - n) / 6 : 0; };
+    std::vector<std::uint8_t> finer = level->Uneven(this->Context, share(uneven));
+    this->Timed("refinement", [&] {
+      part.Begin = part.End;
+      part.Name = "refinement";
+      const std::vector<std::uint8_t> crowded = level->Crowded(this->Context, n, part);
+      std::size_t allowed = share(room);
+      for (std::size_t e = 0; e < n; ++e)
+      {
+        complete = complete && !(crowded[e] && allowed == 0);
+        if (crowded[e] && allowed > 0)
+        {
+          finer[e] = 1;
+          --allowed;
+        }
+      }
+    });
+    if (std::none_of(finer.begin(), finer.end(), [](std::uint8_t m) { return m != 0; }))
+    {
+      return level;
+    }
+    elements = elements.Divided(finer);
+    before = std::move(level);
+  }
 }
 
 } // namespace radiometry

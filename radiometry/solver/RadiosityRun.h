@@ -1,35 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "radiometry/solver/RadiosityCache.h"
 #include "radiometry/solver/RadiosityLevel.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace radiometry
 {
 
-/// One run of RadiositySimulation: which method, how fine, when to stop.
+/// What a run does next.
+struct RadiosityAdvance
+{
+  std::string Outcome;               // not empty: it ends, and this is why
+  double Tolerance = 0.0;            // of a new operator
+  double Area = 0.0;                 // that no element of the next level exceeds, m^2
+  std::vector<std::uint8_t> Rays;    // elements whose rays are doubled, on the same level
+  std::vector<std::uint8_t> Divided; // elements to divide; empty: by area alone
+  bool OtherMethod = false;          // the next level's is one for many elements
+};
+
+/// One run of RadiositySimulation: a level of elements, its operator, the solve and what limits its
+/// error; then more of that, until the tolerance is met or cannot be.
 struct RadiosityRun
 {
   RadiosityContext Context;
   RadiosityResult Result;
   std::unique_ptr<RadiosityLevel> Finest;
   double Area = 0.0;
+  RadiosityCache* Cache = nullptr;
 
-  RadiosityRun(
-    const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options);
+  RadiosityRun(const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options,
+    RadiosityCache* cache);
+  ~RadiosityRun();
 
+  /// The greatest of the ranks' seconds, so that all decide alike.
+  double Elapsed() const;
   double Left() const
   {
     return this->Context.Options.TimeBudget > 0.0
-      ? this->Context.Options.TimeBudget - this->Result.Convergence.Elapsed()
+      ? this->Context.Options.TimeBudget - this->Elapsed()
       : std::numeric_limits<double>::infinity();
   }
   /// Runs f and adds its seconds to the stage's.
   template <class Function>
-  void Timed(const char* stage, Function&& f)
+  double Timed(const char* stage, Function&& f)
   {
     const double begin = this->Result.Convergence.Elapsed();
     f();
@@ -39,26 +60,59 @@ struct RadiosityRun
       if (s.first == stage)
       {
         s.second += spent;
-        return;
+        return spent;
       }
     }
     this->Result.Seconds.emplace_back(stage, spent);
+    return spent;
   }
 
+  /// From the first level, or that of the run before, to the last.
+  void Follow(const ElementSet& coarsest, const StageProgress& stage);
+
+  // RadiosityMethodChoice.cxx
   RadiosityMethod Choose(const ElementSet& elements);
+  /// For more elements than all pairs allow.
+  RadiosityMethod ChooseForMany(std::size_t elements, std::string& why) const;
+  void CheckMemory(std::size_t elements) const;
   std::size_t DenseLimit() const;
   std::size_t AutomaticLimit() const;
-  void Illuminate(RadiosityLevel& level, const StageProgress& stage);
-  std::unique_ptr<RadiosityLevel> RefineByLight(ElementSet elements, std::size_t room,
-    std::size_t uneven, bool& complete, const StageProgress& stage);
-  bool MayTurnToRays() const
+  /// Elements that the method's refinement may come to.
+  std::size_t MostElements(RadiosityMethod method, std::size_t coarsest) const;
+  bool MayTurnToMany() const
   {
-    return this->Context.Options.Method == RadiosityMethod::Auto &&
-      this->Context.Options.Occlusion && !this->Context.Convex;
+    return this->Context.Options.Method == RadiosityMethod::Auto;
   }
-  /// False when elements are too coarse for the tolerance and all pairs of finer ones too many.
-  bool RunDense(const ElementSet& coarsest, const StageProgress& stage);
-  void RunMonteCarlo(const ElementSet& coarsest, const StageProgress& stage);
+
+  // RadiosityCourse.cxx
+  /// The first level of a method; null where its elements cannot be made fine enough near small
+  /// things and another method may be.
+  std::unique_ptr<RadiosityLevel> Begin(
+    RadiosityMethod method, const ElementSet& coarsest, const StageProgress& stage);
+  std::unique_ptr<RadiosityLevel> Next(const RadiosityAdvance& advance,
+    std::unique_ptr<RadiosityLevel> level, const ElementSet& coarsest, const StageProgress& stage);
+  void BuildOperator(RadiosityLevel& level, const StageProgress& stage);
+  RadiosityAdvance Decide(const RadiosityLevel& level, const ElementSet& coarsest,
+    const std::vector<std::uint8_t>& unfinished, double solveSeconds);
+  bool FinerExchange(const RadiosityLevel& level, const std::vector<std::uint8_t>& unfinished,
+    double solveSeconds, RadiosityAdvance& advance);
+  bool FinerElements(const RadiosityLevel& level, const ElementSet& coarsest,
+    const std::vector<std::uint8_t>& unfinished, RadiosityAdvance& advance, double& ratio);
+
+  // RadiosityRefinement.cxx
+  /// Finer where first light is uneven (up to `uneven` elements), and where small things stand
+  /// close to large elements (up to `room`; `complete` tells whether that was enough).
+  std::unique_ptr<RadiosityLevel> RefineByLight(ElementSet elements, std::size_t room,
+    std::size_t uneven, const RadiosityLevel* earlier, bool& complete, const StageProgress& stage);
+
+  // Of the last steps: to see whether they helped.
+  double LastMet = 0.0, LastExcess = std::numeric_limits<double>::infinity();
+  double LastError = std::numeric_limits<double>::infinity();
+  bool DividedLast = false;
+  int Solves = 0; // of the present level
 };
+
+/// The word for a method.
+const char* MethodName(RadiosityMethod method);
 
 } // namespace radiometry

@@ -12,22 +12,31 @@
 namespace radiometry
 {
 
-struct RadiositySimulation::Internals : RadiosityRun
+struct RadiositySimulation::Internals
 {
-  using RadiosityRun::RadiosityRun;
+  std::unique_ptr<RadiosityRun> Run;
 };
 
 RadiositySimulation::RadiositySimulation(
   const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options)
-  : Impl(new Internals(scene, occluders, options))
+  : Impl(new Internals)
 {
+  this->Impl->Run = std::make_unique<RadiosityRun>(scene, occluders, options, nullptr);
+}
+
+RadiositySimulation::RadiositySimulation(
+  const Scene& scene, const RadiosityOptions& options, RadiosityCache& cache)
+  : Impl(new Internals)
+{
+  this->Impl->Run =
+    std::make_unique<RadiosityRun>(scene, cache.Occluders(scene), options, &cache);
 }
 
 RadiositySimulation::~RadiositySimulation() = default;
 
 const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
 {
-  Internals& m = *this->Impl;
+  RadiosityRun& m = *this->Impl->Run;
   CheckOptics(m.Context.Geometry);
   if (!(m.Context.Options.RelativeTolerance > 0.0) && !(m.Context.Options.AbsoluteTolerance > 0.0))
   {
@@ -40,7 +49,6 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   {
     m.Area += a;
   }
-  m.Result.Method = m.Choose(elements);
   if (elements.Size() == 0)
   {
     for (FieldValues* f : { &m.Result.Irradiance[0], &m.Result.Radiosity[0] })
@@ -61,28 +69,23 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   const bool lit = emits || !m.Context.Geometry.GlobalAmbient.empty() ||
     std::any_of(m.Context.Geometry.Lights.begin(), m.Context.Geometry.Lights.end(),
       [](const Light& light) { return light.Enabled; });
-  const bool lightsOnly =
-    !lit || (!reflects && (!emits || !RadiosityLevel(m.Context, elements).Emitters.Empty()));
+  std::unique_ptr<RadiosityLevel> level;
+  bool lightsOnly = !lit || (!reflects && !emits);
+  if (lightsOnly || !reflects)
+  {
+    level = std::make_unique<RadiosityLevel>(m.Context, elements);
+    lightsOnly = lightsOnly || !level->Emitters.Empty();
+  }
   if (lightsOnly)
   {
-    auto level = std::make_unique<RadiosityLevel>(m.Context, elements);
-    m.Illuminate(*level, stage);
+    m.Timed("direct light", [&] { level->Illuminate(m.Context, m.Left(), nullptr, stage); });
     EvaluateRadiosity(m.Context, *level, "direct light", m.Result, nullptr);
     m.Finest = std::move(level);
     m.Result.MethodWhy = "none: nothing is reflected";
     m.Result.Outcome = "direct light is all there is";
     return m.Result;
   }
-  if (m.Result.Method == RadiosityMethod::MonteCarlo)
-  {
-    m.RunMonteCarlo(elements, stage);
-  }
-  else if (!m.RunDense(elements, stage) && m.MayTurnToRays())
-  {
-    m.Result.Method = RadiosityMethod::MonteCarlo;
-    m.Result.MethodWhy = "MonteCarlo: the tolerance asks for more elements than all pairs allow";
-    m.RunMonteCarlo(elements, stage);
-  }
+  m.Follow(elements, stage);
   m.Result.MethodWhy += "; " + m.Finest->F->Description();
   return m.Result;
 }
@@ -90,7 +93,7 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
 FieldValues RadiositySimulation::IrradianceAt(
   const std::vector<SurfacePoint>& points, const StageProgress& stage) const
 {
-  const Internals& m = *this->Impl;
+  const RadiosityRun& m = *this->Impl->Run;
   FieldValues out;
   if (!m.Finest)
   {

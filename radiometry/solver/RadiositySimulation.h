@@ -4,6 +4,7 @@
 #include "radiometry/accuracy/ConvergenceRecord.h"
 #include "radiometry/formfactor/FormFactorOperator.h"
 #include "radiometry/irradiance/IrradianceSimulation.h"
+#include "radiometry/scene/Communicator.h"
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
@@ -35,6 +36,8 @@ enum class RefinementMode
   Off = 2   // one constant radiosity a cell
 };
 
+class RadiosityCache;
+
 struct RadiosityOptions
 {
   double RelativeTolerance = 0.01;
@@ -51,8 +54,13 @@ struct RadiosityOptions
   bool Attenuation = true;
   bool Environment = true;
   bool Transmission = true; // of the lights' light; what surfaces send stops at panes
+  bool SpecularTransport = false; // light over mirrors is followed
   int Threads = 0; // 0: all
   std::uint64_t Seed = 0;
+  const Communicator* Ranks = nullptr; // that compute together; null: this process alone
+
+  /// Whether what surfaces send is followed over mirrors.
+  bool FollowsPaths() const { return this->SpecularTransport; }
 };
 
 /// Area-weighted mean over the cells of each part of IrradianceError, brightest band, W/m^2.
@@ -104,6 +112,9 @@ public:
   /// `scene` and `occluders` must outlive this.
   RadiositySimulation(
     const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options);
+  /// Begins from what the cache has and leaves there what the next run can begin from. All must
+  /// outlive this.
+  RadiositySimulation(const Scene& scene, const RadiosityOptions& options, RadiosityCache& cache);
   ~RadiositySimulation();
 
   /// Once; the result stays available for IrradianceAt.

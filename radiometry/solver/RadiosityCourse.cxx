@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/formfactor/DenseOperator.h"
+#include "radiometry/formfactor/MonteCarloOperator.h"
+#include "radiometry/solver/ElementOverlap.h"
+#include "radiometry/solver/RadiosityRun.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr int FirstRays = 64;
+constexpr int MostRays = 16384;
+constexpr double FirstTolerance = 0.03;
+/// A part of the error counts as limiting above this share of the other.
+constexpr double Limiting = 0.3;
+
+} // namespace
+
+std::unique_ptr<RadiosityLevel> RadiosityRun::Begin(
+  RadiosityMethod method, const ElementSet& coarsest, const StageProgress& stage)
+{
+  const RadiosityOptions& options = this->Context.Options;
+  const bool refine = options.Refinement != RefinementMode::Off;
+  const bool dense = method == RadiosityMethod::Dense;
+  const std::size_t most = this->MostElements(method, coarsest.Size());
+  double area = std::numeric_limits<double>::infinity();
+  ElementSet elements = coarsest;
+  if (refine)
+  {
+    // All pairs begin coarse: elements and exchange get finer as the error asks for the one or the
+    // other. Others begin with elements that are likely to be fine enough.
+    double wanted = dense ? 200.0 : std::clamp(60.0 / options.RelativeTolerance, 500.0, 6000.0);
+    const std::size_t room = dense ? most : std::max<std::size_t>(coarsest.Size(), most / 2);
+    while (coarsest.CountAtArea(this->Area / wanted) > room && wanted > 1e-3)
+    {
+      wanted *= 0.7;
+    }
+    area = this->Area / wanted;
+    elements = coarsest.DividedToArea(area);
+  }
+  else if (dense && 4 * coarsest.Size() <= most)
+  {
+    // One radiosity a cell, and the solve without that restriction to know what it costs.
+    elements = coarsest.Divided(std::vector<std::uint8_t>(coarsest.Size(), 1));
+  }
+  this->Context.Tolerance =
+    std::max(options.RelativeTolerance, refine && dense ? FirstTolerance : 0.0);
+  bool complete = true;
+  const std::size_t uneven = dense ? 0 : std::min(most, 2 * std::max<std::size_t>(elements.Size(), 8000));
+  auto level = this->RefineByLight(
+    std::move(elements), dense ? most : uneven, uneven, nullptr, complete, stage);
+  level->Method = method;
+  level->TargetArea = area;
+  level->Tolerance = this->Context.Tolerance;
+  if (!complete && dense && this->MayTurnToMany())
+  {
+    std::string why;
+    const RadiosityMethod other = this->ChooseForMany(level->Elements.Size(), why);
+    this->Result.MethodWhy = std::string(MethodName(other)) +
+      ": small things close to large ones ask for more elements than all pairs allow" + why;
+    return this->Begin(other, coarsest, stage);
+  }
+  return level;
+}
+
+std::unique_ptr<RadiosityLevel> RadiosityRun::Next(const RadiosityAdvance& advance,
+  std::unique_ptr<RadiosityLevel> level, const ElementSet& coarsest, const StageProgress& stage)
+{
+  // The old operator makes room for the new one.
+  level->Carlo = nullptr;
+  level->F.reset();
+  if (advance.OtherMethod)
+  {
+    std::string why;
+    const RadiosityMethod other = this->ChooseForMany(level->Elements.Size(), why);
+    this->Result.MethodWhy = std::string(MethodName(other)) +
+      ": the tolerance asks for more elements than all pairs allow" + why;
+    return this->Begin(other, coarsest, stage);
+  }
+  this->Context.Tolerance = advance.Tolerance;
+  if (advance.Divided.empty() && advance.Area == level->TargetArea)
+  {
+    level->Tolerance = advance.Tolerance;
+    return level;
+  }
+  const bool dense = level->Method == RadiosityMethod::Dense;
+  const std::size_t most = this->MostElements(level->Method, coarsest.Size());
+  ElementSet elements = advance.Divided.empty() ? coarsest.DividedToArea(advance.Area)
+                                                : level->Elements.Divided(advance.Divided);
+  bool complete = true;
+  const std::size_t uneven = dense ? 0 : most;
+  auto next =
+    this->RefineByLight(std::move(elements), most, uneven, level.get(), complete, stage);
+  next->Method = level->Method;
+  next->TargetArea = advance.Area;
+  next->Tolerance = advance.Tolerance;
+  next->Rays = level->Rays;
+  next->BeginFrom(*level, this->Context.Bands);
+  if (!complete && dense && this->MayTurnToMany())
+  {
+    RadiosityAdvance turn;
+    turn.OtherMethod = true;
+    return this->Next(turn, std::move(next), coarsest, stage);
+  }
+  return next;
+}
+
+void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& stage)
+{
+  const double begin = this->Result.Convergence.Elapsed();
+  ExchangeOptions exchange = this->Context.Exchange();
+  if (level.Method == RadiosityMethod::MonteCarlo)
+  {
+    const auto n = static_cast<double>(level.Elements.Size());
+    double rays = std::max(level.Rays, FirstRays);
+    if (this->Context.Options.TimeBudget > 0.0)
+    {
+      rays = std::clamp(0.2e6 * this->Left() / n, 16.0, rays);
+    }
+    rays = std::min(rays, 0.8 * static_cast<double>(this->Context.Memory) / (4.0 * n));
+    auto carlo = std::make_unique<MonteCarloOperator>(this->Context.Occluders, level.Elements,
+      exchange, std::max(8, static_cast<int>(rays)), stage);
+    level.Carlo = carlo.get();
+    level.F = std::move(carlo);
+  }
+  else
+  {
+    level.F = std::make_unique<DenseOperator>(
+      this->Context.Geometry, this->Context.Occluders, level.Elements, exchange, stage);
+  }
+  level.ExchangeSeconds = this->Result.Convergence.Elapsed() - begin;
+}
+
+RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const ElementSet& coarsest,
+  const std::vector<std::uint8_t>& unfinished, double solveSeconds)
+{
+  RadiosityAdvance advance;
+  advance.Tolerance = level.Tolerance;
+  advance.Area = level.TargetArea;
+  const RadiosityErrorBudget& budget = this->Result.Budget;
+  const double sampled = budget.Direct + budget.Visibility + budget.FormFactors;
+  const bool elements = budget.Discretisation > Limiting * sampled;
+  const double error = this->Result.Convergence.Rows.back().RelativeError;
+  // All pairs go on to their limits; what is made finer here and there stops where it does not help.
+  const bool stalled = level.Method != RadiosityMethod::Dense &&
+    this->Result.MetShare < this->LastMet + 0.01 &&
+    this->Result.Excess > 0.93 * this->LastExcess && error > 0.93 * this->LastError;
+  this->LastMet = this->Result.MetShare;
+  this->LastExcess = this->Result.Excess;
+  this->LastError = error;
+  if (stalled && this->DividedLast)
+  {
+    advance.Outcome = "finer elements no longer help";
+    return advance;
+  }
+  const bool finerExchange = !stalled && sampled > Limiting * budget.Discretisation &&
+    this->FinerExchange(level, unfinished, solveSeconds, advance);
+  this->DividedLast = false;
+  if (!advance.Rays.empty() || !advance.Outcome.empty())
+  {
+    return advance;
+  }
+  double ratio = 1.0;
+  const bool finerElements =
+    elements && this->FinerElements(level, coarsest, unfinished, advance, ratio);
+  if (finerExchange || finerElements)
+  {
+    this->DividedLast = finerElements;
+    const double power = level.Method == RadiosityMethod::Dense ? 2.0 : 1.0;
+    const double predicted = 2.0 * solveSeconds * ratio +
+      level.ExchangeSeconds * std::pow(ratio, power) * level.Tolerance / advance.Tolerance;
+    if (predicted > this->Left())
+    {
+      advance.Outcome = "the time budget does not allow a finer step";
+    }
+  }
+  else if (this->Context.Options.Refinement == RefinementMode::Off)
+  {
+    advance.Outcome = "one radiosity a cell, as asked";
+  }
+  else if (elements && level.Method == RadiosityMethod::Dense && this->MayTurnToMany() &&
+    !this->Context.Convex && this->Context.Options.Occlusion)
+  {
+    advance.OtherMethod = true;
+  }
+  else
+  {
+    advance.Outcome = elements ? "the elements' size limits the error"
+                               : "sampling of direct light and visibility limits the error";
+  }
+  return advance;
+}
+
+/// More rays where rays are what limits; or a finer tolerance of all pairs.
+bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
+  const std::vector<std::uint8_t>& unfinished, double solveSeconds, RadiosityAdvance& advance)
+{
+  if (!level.Carlo)
+  {
+    advance.Tolerance = std::max(this->Context.Options.RelativeTolerance, 0.3 * level.Tolerance);
+    return advance.Tolerance < level.Tolerance;
+  }
+  // By neighbourhoods, for to ask each element by itself would end with those whose rays happen to
+  // have missed what is bright.
+  const std::size_t n = level.Elements.Size();
+  std::size_t neighbourhoods = 0;
+  const std::vector<std::int32_t> neighbourhood =
+    level.Elements.Groups(this->Context.Geometry, 3, neighbourhoods);
+  std::vector<double> wanting(neighbourhoods, 0.0), whole(neighbourhoods, 0.0);
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    bool limits = false;
+    for (std::size_t b = 0; b < this->Context.Bands; ++b)
+    {
+      const std::size_t k = e * this->Context.Bands + b;
+      limits = limits ||
+        level.VisibilityError[k] >
+          Limiting * (std::abs(level.Discretisation[k]) + level.DirectError[k]);
+    }
+    const auto g = static_cast<std::size_t>(neighbourhood[e]);
+    whole[g] += level.Elements.GetAreas()[e];
+    wanting[g] += unfinished[e] && limits ? level.Elements.GetAreas()[e] : 0.0;
+  }
+  std::vector<std::uint8_t> marked(n, 0);
+  std::int64_t more = 0;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    const auto g = static_cast<std::size_t>(neighbourhood[e]);
+    marked[e] = wanting[g] > 0.1 * whole[g] && level.Carlo->Rays(e) < MostRays;
+    more += marked[e] ? level.Carlo->Rays(e) : 0;
+  }
+  if (more == 0)
+  {
+    return false;
+  }
+  if (level.F->MemoryBytes() + static_cast<std::size_t>(more) * 4 > this->Context.Memory)
+  {
+    advance.Outcome = "the memory limit does not allow more rays";
+    return false;
+  }
+  const double raySeconds =
+    level.ExchangeSeconds / static_cast<double>(std::max<std::int64_t>(1, level.F->Samples()));
+  if (static_cast<double>(more) * raySeconds + 2.0 * solveSeconds > this->Left())
+  {
+    advance.Outcome = "the time budget does not allow more rays";
+    return false;
+  }
+  advance.Rays = std::move(marked);
+  return true;
+}
+
+/// A quarter of the area where all pairs allow it; else those whose unevenness does most harm.
+/// `ratio`: by how many times more elements.
+bool RadiosityRun::FinerElements(const RadiosityLevel& level, const ElementSet& coarsest,
+  const std::vector<std::uint8_t>& unfinished, RadiosityAdvance& advance, double& ratio)
+{
+  if (this->Context.Options.Refinement == RefinementMode::Off)
+  {
+    return false;
+  }
+  const std::size_t n = level.Elements.Size();
+  const std::size_t limit = this->MostElements(level.Method, coarsest.Size());
+  if (level.Method == RadiosityMethod::Dense)
+  {
+    const std::size_t now = coarsest.CountAtArea(level.TargetArea);
+    double next = 0.25 * level.TargetArea;
+    while (coarsest.CountAtArea(next) > limit && next < 0.7 * level.TargetArea)
+    {
+      next *= 1.2;
+    }
+    const std::size_t then = coarsest.CountAtArea(next);
+    if (then > limit || then <= now)
+    {
+      return false;
+    }
+    advance.Area = next;
+    ratio = static_cast<double>(then) / static_cast<double>(std::max<std::size_t>(1, now));
+    return true;
+  }
+  std::vector<std::uint8_t> marked =
+    level.Harmful(this->Context, unfinished, limit > n ? (limit - n) / 6 : 0);
+  const auto more = std::count(marked.begin(), marked.end(), 1);
+  ratio = 1.0 + 3.0 * static_cast<double>(more) / static_cast<double>(n);
+  if (ratio < 1.02)
+  {
+    return false;
+  }
+  advance.Divided = std::move(marked);
+  return true;
+}
+
+} // namespace radiometry

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/formfactor/DenseOperator.h"
+#include "radiometry/scene/InputError.h"
+#include "radiometry/solver/RadiosityRun.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr double MiB = 1024.0 * 1024.0;
+constexpr std::size_t MostRefined = 60000;
+/// Bytes a Monte Carlo operator takes for each element beside its rays, and the fewest rays.
+constexpr std::size_t CarloElement = 48;
+constexpr std::size_t FewestRays = 8;
+
+std::size_t CarloBytes(std::size_t n, std::size_t rays)
+{
+  return n * (CarloElement + rays * sizeof(std::int32_t));
+}
+
+} // namespace
+
+const char* MethodName(RadiosityMethod method)
+{
+  switch (method)
+  {
+    case RadiosityMethod::Dense:
+      return "Dense";
+    case RadiosityMethod::Hierarchical:
+      return "Hierarchical";
+    case RadiosityMethod::MonteCarlo:
+      return "MonteCarlo";
+    default:
+      return "Auto";
+  }
+}
+
+std::size_t RadiosityRun::DenseLimit() const
+{
+  std::size_t n = this->Context.Options.RelativeTolerance < 0.003 ? 8192 : 4096;
+  while (n > 64 && DenseOperator::LeastBytes(n) > this->Context.Memory)
+  {
+    n = n * 3 / 4;
+  }
+  return n;
+}
+
+std::size_t RadiosityRun::AutomaticLimit() const
+{
+  // Where nothing hides anything pairs need no rays; else other ways are the cheaper to all but
+  // the finest tolerances.
+  const std::size_t limit = this->DenseLimit();
+  const bool rays = this->Context.Options.Method == RadiosityMethod::Auto &&
+    this->Context.Options.Occlusion && !this->Context.Convex &&
+    this->Context.Options.RelativeTolerance >= 0.005;
+  return rays ? std::min<std::size_t>(limit, 1024) : limit;
+}
+
+std::size_t RadiosityRun::MostElements(RadiosityMethod method, std::size_t coarsest) const
+{
+  if (method == RadiosityMethod::Dense)
+  {
+    return std::max(this->AutomaticLimit(), coarsest);
+  }
+  const std::size_t most = this->Context.Memory / 2 / CarloBytes(1, 64);
+  return std::max(coarsest, std::min(most, MostRefined));
+}
+
+void RadiosityRun::CheckMemory(std::size_t elements) const
+{
+  const std::size_t dense = DenseOperator::LeastBytes(elements);
+  const std::size_t carlo = CarloBytes(elements, FewestRays);
+  const RadiosityMethod asked = this->Context.Options.Method;
+  std::size_t least = dense;
+  RadiosityMethod method = RadiosityMethod::Dense;
+  if (asked == RadiosityMethod::MonteCarlo ||
+    (asked == RadiosityMethod::Auto && this->Context.Options.Occlusion && carlo < dense))
+  {
+    least = carlo;
+    method = RadiosityMethod::MonteCarlo;
+  }
+  if (least > this->Context.Memory)
+  {
+    throw InputError("MemoryLimit", -1, static_cast<double>(this->Context.Memory) / MiB,
+      "at least " +
+        std::to_string(static_cast<long long>(std::ceil(static_cast<double>(least) / MiB))) +
+        " MiB, the least that any method wants (" + MethodName(method) + ", " +
+        std::to_string(elements) + " elements)");
+  }
+}
+
+RadiosityMethod RadiosityRun::Choose(const ElementSet& elements)
+{
+  const std::size_t n = elements.Size();
+  const RadiosityOptions& options = this->Context.Options;
+  std::string& why = this->Result.MethodWhy;
+  if (options.Method == RadiosityMethod::Hierarchical)
+  {
+    throw InputError(
+      "Method", -1, "Hierarchical", "Auto, Dense or MonteCarlo: not available in this version");
+  }
+  if (options.Method == RadiosityMethod::MonteCarlo && !options.Occlusion)
+  {
+    throw InputError("Method", -1, "MonteCarlo",
+      "Auto or Dense where Occlusion is off: rays cannot pass through what they meet");
+  }
+  this->CheckMemory(n);
+  if (options.Method != RadiosityMethod::Auto)
+  {
+    why = std::string(MethodName(options.Method)) + " as asked";
+    return options.Method;
+  }
+  const std::string count = std::to_string(n) + " elements";
+  if (!options.Occlusion)
+  {
+    why = "Dense: occlusion is off, and rays cannot pass through what they meet";
+    return RadiosityMethod::Dense;
+  }
+  const std::size_t limit = this->AutomaticLimit();
+  const double wanted = std::clamp(10.0 / options.RelativeTolerance, 200.0, 2000.0);
+  const std::size_t fine = options.Refinement == RefinementMode::Off
+    ? n
+    : elements.CountAtArea(this->Area / wanted);
+  if (n > limit || fine > limit + limit / 2)
+  {
+    const RadiosityMethod method = this->ChooseForMany(n, why);
+    why = std::string(MethodName(method)) + ": " + count + " (" + std::to_string(fine) +
+      " when refined for the tolerance), more than the " + std::to_string(limit) +
+      " whose pairs would be worth their rays and memory" + why;
+    return method;
+  }
+  const double threads = options.Threads > 0 ? options.Threads : 2.0;
+  if (2e-6 * static_cast<double>(n) * static_cast<double>(n) / threads > 0.5 * this->Left())
+  {
+    const RadiosityMethod method = this->ChooseForMany(n, why);
+    why = std::string(MethodName(method)) + ": all pairs of " + count +
+      " do not fit in the time budget" + why;
+    return method;
+  }
+  why = "Dense: all pairs of " + count + " are few";
+  return RadiosityMethod::Dense;
+}
+
+RadiosityMethod RadiosityRun::ChooseForMany(std::size_t, std::string& why) const
+{
+  why.clear();
+  return RadiosityMethod::MonteCarlo;
+}
+
+} // namespace radiometry
