@@ -43,7 +43,23 @@ void AddQuantities(int side, radiometry::FieldValues& irradiance, radiometry::Fi
   quantities.push_back(std::move(radiance));
 }
 
+constexpr double Mebibyte = 1024.0 * 1024.0;
+
 } // namespace
+
+vtkRadiosityFilter::vtkRadiosityFilter()
+  : Cache(std::make_shared<radiometry::RadiosityCache>())
+{
+}
+
+vtkRadiosityFilter::~vtkRadiosityFilter() = default;
+
+void vtkRadiosityFilter::ReleaseCache() { this->Cache->Release(); }
+
+double vtkRadiosityFilter::GetCacheMemory()
+{
+  return static_cast<double>(this->Cache->MemoryBytes()) / Mebibyte;
+}
 
 void vtkRadiosityFilter::Simulate(Job& job, Result& result)
 {
@@ -51,23 +67,27 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   options.RelativeTolerance = this->RelativeTolerance;
   options.AbsoluteTolerance = this->AbsoluteTolerance;
   options.TimeBudget = this->TimeBudget;
-  constexpr double mebibyte = 1024.0 * 1024.0;
   if (this->MemoryLimit > 0.0)
   {
-    options.MemoryLimit = static_cast<std::size_t>(this->MemoryLimit * mebibyte);
+    options.MemoryLimit = static_cast<std::size_t>(this->MemoryLimit * Mebibyte);
   }
   else
   {
     vtksys::SystemInformation machine;
     machine.RunMemoryCheck();
-    options.MemoryLimit = static_cast<std::size_t>(0.5 * mebibyte) * machine.GetTotalPhysicalMemory();
+    options.MemoryLimit = static_cast<std::size_t>(0.5 * Mebibyte) * machine.GetTotalPhysicalMemory();
   }
   options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);
   options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
   options.Threads = this->NumberOfThreads;
 
-  radiometry::PlannedRadiosity computed = radiometry::SimulatePlannedRadiosity(
-    job.Scene, job.Points, job.WantCells, job.Switches, options, job.Progress);
+  if (!this->CacheOperator)
+  {
+    this->Cache->Release();
+  }
+  radiometry::PlannedRadiosity computed = radiometry::SimulatePlannedRadiosity(job.Scene, job.Points,
+    job.WantCells, job.Switches, options, job.Progress,
+    this->CacheOperator ? this->Cache.get() : nullptr);
   for (int side = 0; side < 2; ++side)
   {
     if (job.WantCells)
@@ -92,5 +112,6 @@ void vtkRadiosityFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   static const char* const methods[] = { "Auto", "Dense", "Hierarchical", "MonteCarlo" };
-  os << indent << "Method: " << methods[this->Method] << '\n';
+  os << indent << "Method: " << methods[this->Method] << '\n'
+     << indent << "CacheOperator: " << this->CacheOperator << '\n';
 }

@@ -4,6 +4,13 @@
 
 #include "vtkRadiometricFilter.h"
 
+#include <memory> // for the cache
+
+namespace radiometry
+{
+class RadiosityCache;
+}
+
 /// Direct light, emission and interreflection on a surface: irradiance and radiosity.
 ///   Reads   material arrays DiffuseReflectance, EmittedExitance, TwoSided; the light arrays
 ///           (docs/arrays.md)
@@ -39,15 +46,34 @@ public:
   vtkGetMacro(Method, int);
   ///@}
 
+  ///@{
+  /// Whether elements and the exchange between them are kept for the next execution. Default on:
+  /// while points, cells, receiving sides and transmittances of surface and occluders stay the
+  /// same, moving, dimming or recolouring lights, and changing diffuse reflectance or emission,
+  /// only solves again. Such results may differ from those of a fresh filter within their errors,
+  /// since they begin from elements that are finer where light was. What is kept counts towards
+  /// MemoryLimit and is freed when geometry changes.
+  vtkSetMacro(CacheOperator, bool);
+  vtkGetMacro(CacheOperator, bool);
+  vtkBooleanMacro(CacheOperator, bool);
+  ///@}
+  /// Frees what was kept.
+  void ReleaseCache();
+  /// What is kept now [MiB].
+  double GetCacheMemory();
+
 protected:
-  vtkRadiosityFilter() = default;
-  ~vtkRadiosityFilter() override = default;
+  vtkRadiosityFilter();
+  ~vtkRadiosityFilter() override;
 
   void Simulate(Job& job, Result& result) override;
 
   int Method = METHOD_AUTO;
+  bool CacheOperator = true;
 
 private:
+  std::shared_ptr<radiometry::RadiosityCache> Cache;
+
   vtkRadiosityFilter(const vtkRadiosityFilter&) = delete;
   void operator=(const vtkRadiosityFilter&) = delete;
 };
