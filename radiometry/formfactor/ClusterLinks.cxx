@@ -30,7 +30,7 @@ ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elemen
   , Elements(elements)
   , Occluders(occluders)
   , Tolerance(std::clamp(options.RelativeTolerance, 1e-7, 0.5) * loosened)
-  , FormAllowance(0.05 * Tolerance)
+  , FormAllowance(0.02 * Tolerance)
   , SightAllowance(0.1 * Tolerance)
   , Seed(options.Seed)
   , Occlusion(occlusion)

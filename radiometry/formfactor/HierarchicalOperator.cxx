@@ -59,13 +59,27 @@ struct HierarchicalOperator::Internals
   int Threads = 0;
   ClosureReport Report;
 
+  /// Parallel where it is worth it.
+  template <class Body>
+  void Each(std::size_t count, const Body& body, double cost) const
+  {
+    if (this->Entries.size() < 20000)
+    {
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        body(k);
+      }
+      return;
+    }
+    ParallelFor(count, this->Threads, {}, body, cost);
+  }
   /// Runs body(node) over all nodes of each subtree, subtrees in parallel, and of the part above.
   template <class Body>
   void Up(const Body& body) const
   {
     const auto& roots = this->Tree.Subtrees();
-    ParallelFor(
-      roots.size(), this->Threads, {},
+    this->Each(
+      roots.size(),
       [&](std::size_t k) {
         const std::int32_t root = roots[k];
         for (std::int32_t at = root + 2 * this->Tree[root].Count - 2; at >= root; --at)
@@ -85,8 +99,7 @@ struct HierarchicalOperator::Internals
   void Down(const Gather& gather, const Pass& pass) const
   {
     const auto& upper = this->Tree.Upper();
-    ParallelFor(
-      upper.size(), this->Threads, {}, [&](std::size_t k) { gather(upper[k]); }, 1e-6);
+    this->Each(upper.size(), [&](std::size_t k) { gather(upper[k]); }, 1e-6);
     for (const std::int32_t at : upper)
     {
       if (at > 0)
@@ -95,8 +108,8 @@ struct HierarchicalOperator::Internals
       }
     }
     const auto& roots = this->Tree.Subtrees();
-    ParallelFor(
-      roots.size(), this->Threads, {},
+    this->Each(
+      roots.size(),
       [&](std::size_t k) {
         const std::int32_t root = roots[k];
         for (std::int32_t at = root; at < root + 2 * this->Tree[root].Count - 1; ++at)
@@ -512,7 +525,7 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     {
       // A row that misses more than its own error explains sees an opening the probes did not.
       closed[i] =
-        closed[i] && std::abs(1.0 - m.RowSums[i]) <= 5.0 * std::hypot(form[i], sight[i]) + 1e-6;
+        closed[i] && std::abs(1.0 - m.RowSums[i]) <= 5.0 * std::hypot(form[i], sight[i]) + 2.0 * options.RelativeTolerance;
     }
     m.CloseRows(std::move(closed));
   }
