@@ -44,7 +44,7 @@ vtkDataArray* FindArray(const SceneAdapter::Block& block, const std::string& nam
 }
 
 const char* const SpectralNames[] = { names::DiffuseReflectance, names::SpecularReflectance,
-  names::EmittedExitance, names::Transmittance };
+  names::DiffuseTransmittance, names::EmittedExitance, names::Transmittance };
 
 /// Reads one array of every block, cells x bands in [0, most]; `values` stays as it is when no block
 /// has it.
@@ -100,12 +100,14 @@ void CheckSums(
           const double sum = optics.DiffuseReflectance[side][at] +
             (optics.SpecularReflectance[side].empty() ? 0.0
                                                       : optics.SpecularReflectance[side][at]) +
-            (optics.Transmittance.empty() ? 0.0 : optics.Transmittance[at]);
+            (optics.Transmittance.empty() ? 0.0 : optics.Transmittance[at]) +
+            (optics.DiffuseTransmittance.empty() ? 0.0 : optics.DiffuseTransmittance[at]);
           if (sum > 1.0 + 1e-12)
           {
-            throw InputError(
-              block.Name + "DiffuseReflectance + SpecularReflectance + Transmittance", c, sum,
-              "at most 1 in each band");
+            throw InputError(block.Name +
+                "DiffuseReflectance + SpecularReflectance + Transmittance + DiffuseTransmittance",
+              c, sum,
+              std::string("at most 1 in each band (") + (side == 0 ? "front" : "back") + ")");
           }
         }
       }
@@ -187,6 +189,7 @@ void SceneAdapter::ReadMaterials(radiometry::Scene& scene) const
   readSides(names::DiffuseReflectance, 1.0, this->DiffuseReflectance, optics.DiffuseReflectance);
   readSides(names::SpecularReflectance, 1.0, 0.0, optics.SpecularReflectance);
   readSides(names::EmittedExitance, infinite, 0.0, optics.EmittedExitance);
+  read(names::DiffuseTransmittance, 1.0, 0.0, optics.DiffuseTransmittance);
   read(names::Transmittance, 1.0, 0.0, optics.Transmittance);
   for (auto& side : optics.DiffuseReflectance)
   {

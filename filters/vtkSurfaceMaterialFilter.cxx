@@ -34,6 +34,7 @@ struct vtkSurfaceMaterialFilter::Material
   Color Diffuse;
   Color Specular;
   Color Transmitted;
+  Color Diffused;
   Color Exitance;
 };
 
@@ -132,7 +133,7 @@ void SetArray(vtkDataSet* surface, const char* name, const std::vector<double>& 
 int BandsOf(vtkDataSet* surface)
 {
   for (const char* name : { names::DiffuseReflectance, names::SpecularReflectance,
-         names::EmittedExitance, names::Transmittance })
+         names::DiffuseTransmittance, names::EmittedExitance, names::Transmittance })
   {
     if (vtkDataArray* array = surface->GetCellData()->GetArray(name))
     {
@@ -163,17 +164,19 @@ vtkSurfaceMaterialFilter::Material vtkSurfaceMaterialFilter::MakeMaterial() cons
   m.Diffuse = Checked(this->DiffuseReflectance, 1.0, "DiffuseReflectance");
   m.Specular = Checked(this->SpecularReflectance, 1.0, "SpecularReflectance");
   m.Transmitted = Checked(this->Transmittance, 1.0, "Transmittance");
+  m.Diffused = Checked(this->DiffuseTransmittance, 1.0, "DiffuseTransmittance");
   if (this->Preset > 0)
   {
     m.Diffuse = materialPresets[this->Preset - 1].Diffuse;
-    m.Specular = m.Transmitted = { 0.0, 0.0, 0.0 };
+    m.Specular = m.Transmitted = m.Diffused = { 0.0, 0.0, 0.0 };
   }
   for (int b = 0; b < 3; ++b)
   {
-    const double sum = m.Diffuse[b] + m.Specular[b] + m.Transmitted[b];
+    const double sum = m.Diffuse[b] + m.Specular[b] + m.Transmitted[b] + m.Diffused[b];
     if (sum > 1.0 + 1e-12) // three decimal numbers that add up to 1 may do so with rounding
     {
-      throw InputError("DiffuseReflectance + SpecularReflectance + Transmittance", b, sum,
+      throw InputError(
+        "DiffuseReflectance + SpecularReflectance + Transmittance + DiffuseTransmittance", b, sum,
         "at most 1 in each band");
     }
   }
@@ -256,6 +259,11 @@ bool vtkSurfaceMaterialFilter::Apply(
   if (transmits || input->GetCellData()->GetArray(names::Transmittance))
   {
     set(names::Transmittance, material.Transmitted, 0.0);
+  }
+  const bool diffuses = material.Diffused != Color{ 0.0, 0.0, 0.0 };
+  if (diffuses || input->GetCellData()->GetArray(names::DiffuseTransmittance))
+  {
+    set(names::DiffuseTransmittance, material.Diffused, 0.0);
   }
   SetArray(output, names::Shininess, { this->Shininess }, 10.0, chosen);
 
@@ -345,6 +353,7 @@ void vtkSurfaceMaterialFilter::PrintSelf(ostream& os, vtkIndent indent)
   color("SpecularReflectance", this->SpecularReflectance);
   os << indent << "Shininess: " << this->Shininess << "\n";
   color("Transmittance", this->Transmittance);
+  color("DiffuseTransmittance", this->DiffuseTransmittance);
   os << indent << "Emission: " << this->Emission << " (unit " << this->EmissionUnit << ")\n";
   color("EmissionColor", this->EmissionColor);
   os << indent << "LuminousEfficacy: " << this->LuminousEfficacy << " lm/W\n";

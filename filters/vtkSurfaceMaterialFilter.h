@@ -13,8 +13,9 @@ class vtkDataSet;
 ///   Reads   any dataset, or composite data of datasets; existing material arrays, whose values
 ///           stay on cells that are not chosen
 ///   Writes  cell data DiffuseReflectance, SpecularReflectance, Shininess, EmittedExitance [W/m^2],
-///           TwoSided, and Transmittance where it is not 0 or exists; N bands
-///   Model   diffuse + specular + transmitted <= 1 in each band. Emission given as luminance or
+///           TwoSided, and Transmittance and DiffuseTransmittance where they are not 0 or exist;
+///           N bands
+///   Model   diffuse + specular + transmitted + diffusely transmitted <= 1 in each band. Emission given as luminance or
 ///           radiance is that of a Lambertian emitter: M = pi L; photometric values are divided by
 ///           LuminousEfficacy
 ///   Cost    O(cells)
@@ -30,7 +31,7 @@ public:
   ///@{
   /// A material of the list in radiometry/scene/MaterialPresets.h, from 1; 0 (default) takes the
   /// reflectances below. A preset sets the diffuse reflectance; the specular one and the
-  /// transmittance are then 0.
+  /// transmittances are then 0.
   vtkSetMacro(Preset, int);
   vtkGetMacro(Preset, int);
   static int GetNumberOfPresets();
@@ -61,6 +62,14 @@ public:
   /// Transmittance in linear Rec.709. Default 0. Each in [0, 1].
   vtkSetVector3Macro(Transmittance, double);
   vtkGetVector3Macro(Transmittance, double);
+  ///@}
+
+  ///@{
+  /// Share of the light on either side that leaves the other side in all directions (paper,
+  /// frosted glass, lampshades), in linear Rec.709. Default 0. Each in [0, 1]. The back of a cell
+  /// reflects as well only when TwoSided.
+  vtkSetVector3Macro(DiffuseTransmittance, double);
+  vtkGetVector3Macro(DiffuseTransmittance, double);
   ///@}
 
   /// Values of EmissionUnit.
@@ -133,6 +142,7 @@ protected:
   double SpecularReflectance[3] = { 0.0, 0.0, 0.0 };
   double Shininess = 10.0;
   double Transmittance[3] = { 0.0, 0.0, 0.0 };
+  double DiffuseTransmittance[3] = { 0.0, 0.0, 0.0 };
   double Emission = 0.0;
   int EmissionUnit = WattPerSquareMeter;
   double EmissionColor[3] = { 1.0, 1.0, 1.0 };

@@ -13,7 +13,7 @@ from .subdivide import divide, row_keys
 AUTOMATIC_TRIANGLES = 2500  # what --max-edge auto aims at
 LARGEST = 3000000  # triangles that refining may make
 MATERIAL = ("DiffuseReflectance", "SpecularReflectance", "Shininess", "EmittedExitance",
-            "Transmittance", "TwoSided", "BackDiffuseReflectance")
+            "DiffuseTransmittance", "Transmittance", "TwoSided", "BackDiffuseReflectance")
 
 
 def triangles(surface):

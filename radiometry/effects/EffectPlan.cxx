@@ -127,9 +127,11 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
   const double reflectance = Greatest(optics.DiffuseReflectance);
   const double specular = Greatest(optics.SpecularReflectance);
   const double transmitted = GreatestTransmittance(scene);
+  const double diffused = Greatest(optics.DiffuseTransmittance);
   const bool lit = any || emitted > 0.0 || Greatest(scene.GlobalAmbient) > 0.0;
 
-  const bool shadowless = !twoSided && !(freePoints && !scene.Triangles.empty()) &&
+  const bool backs = twoSided || diffused > 0.0; // receive light
+  const bool shadowless = !backs && !(freePoints && !scene.Triangles.empty()) &&
     (convexity == Convexity::Body || (convexity == Convexity::Room && LightsInside(scene)));
   decide(Effect::Occlusion, (any || emitted > 0.0) && !shadowless && !scene.Triangles.empty(), true,
     scene.Triangles.empty() || (!any && emitted <= 0.0)
@@ -138,18 +140,26 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
                                       : "a convex room with its lights inside: nothing stands between"),
     "surfaces may stand between a light and a cell");
   decide(Effect::Interreflection,
-    reflectance > 0.0 && (convexity != Convexity::Body || twoSided) && lit,
+    (reflectance > 0.0 || diffused > 0.0) && (convexity != Convexity::Body || backs) && lit,
     abilities.Interreflection,
-    reflectance <= 0.0 ? "no surface reflects diffusely"
+    reflectance <= 0.0 && diffused <= 0.0 ? "no surface reflects diffusely"
                        : (lit ? "no front faces another" : "no light is on"),
-    "surfaces face each other and reflect up to " + std::to_string(reflectance));
+    "surfaces face each other and reflect up to " + std::to_string(reflectance) +
+      (diffused > 0.0 ? ", let through diffusely up to " + std::to_string(diffused) : ""));
   decide(Effect::SpecularTransport, specular > 0.0, abilities.SpecularTransport,
     "no surface reflects specularly", "surfaces reflect specularly");
-  decide(Effect::Transmission, transmitted > 0.0 && (*this)[Effect::Occlusion].Present,
-    abilities.Transmission,
+  const bool panes = transmitted > 0.0 && (*this)[Effect::Occlusion].Present;
+  const std::string through = diffused > 0.0
+    ? "cells let up to " + std::to_string(diffused) + " of the light through diffusely" +
+      (this->Indirect ? "" : " (direct light alone does not follow it: bound given)")
+    : "";
+  const std::string straight = panes
+    ? "panes let up to " + std::to_string(transmitted) + " of the direct light through" +
+      (this->Indirect ? "; what surfaces send or reflect does not pass them (bound given)" : "")
+    : "";
+  decide(Effect::Transmission, panes || diffused > 0.0, abilities.Transmission,
     transmitted > 0.0 ? "nothing stands between a light and a cell" : "every surface is opaque",
-    "panes let up to " + std::to_string(transmitted) + " of the direct light through" +
-      (this->Indirect ? "; what surfaces send or reflect does not pass them (bound given)" : ""));
+    straight + (panes && diffused > 0.0 ? "; " : "") + through);
   decide(Effect::BackFaces, twoSided, true, "no surface is two-sided",
     "two-sided surfaces receive on their backs");
   decide(Effect::Emission, emitted > 0.0, abilities.Emission, "no surface emits",
@@ -164,7 +174,7 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
 
 bool EffectPlan::LeavesOut() const
 {
-  return (this->Indirect && (*this)[Effect::Transmission].Present) ||
+  return (*this)[Effect::Transmission].Present ||
     std::any_of(this->Decisions.begin(), this->Decisions.end(),
       [](const EffectDecision& d) { return d.Present && !d.Simulated; });
 }
@@ -179,7 +189,8 @@ void EffectPlan::Bound(
   const double transmitted = GreatestTransmittance(scene);
   const double ambient = Greatest(scene.GlobalAmbient);
   const double diffuse = Greatest(optics.DiffuseReflectance);
-  const double reflectance = diffuse + specular + transmitted;
+  const double diffused = Greatest(optics.DiffuseTransmittance);
+  const double reflectance = diffuse + specular + transmitted + diffused;
   // No point gets more than all that any surface sends, were it all around it: E0/(1 - rho).
   const double direct = std::max(peak, peakBack);
   const double sent = (direct + ambient) * reflectance + emitted;
@@ -189,15 +200,19 @@ void EffectPlan::Bound(
   // Through panes: what comes straight; then all that any surface sends, and what that adds by
   // reflection.
   const double passing = this->Indirect
-    ? (reflectance < 1.0 ? transmitted * indirect / (1.0 - diffuse) : infinite)
+    ? orNothing(transmitted,
+        reflectance < 1.0 ? transmitted * indirect / (1.0 - diffuse - diffused) : infinite)
     : 0.0;
+  // What cells that diffuse send on, and what that adds by reflection.
+  const double spread = orNothing(diffused,
+    reflectance < 1.0 ? diffused * (direct + ambient + indirect) / (1.0 - reflectance) : infinite);
 
   const double bounds[EffectCount] = {
     peak + emitted,                                                          // Occlusion
     reflectance < 1.0 ? (peak + ambient + emitted) * reflectance / (1.0 - reflectance)
                       : orNothing(peak + ambient + emitted, infinite),       // Interreflection
     orNothing(specular, specular * (direct + ambient + indirect)),           // SpecularTransport
-    orNothing(transmitted, transmitted * (direct + emitted) + passing),      // Transmission
+    orNothing(transmitted, transmitted * (direct + emitted) + passing) + spread, // Transmission
     peakBack,                                                                // BackFaces
     orNothing(emitted, reflectance < 1.0 ? emitted / (1.0 - reflectance) : infinite), // Emission
     orNothing(sky, reflectance < 1.0 ? sky / (1.0 - reflectance) : infinite), // Environment
@@ -212,7 +227,7 @@ void EffectPlan::Bound(
   EffectDecision& panes = (*this)[Effect::Transmission];
   if (panes.Present && panes.Simulated)
   {
-    panes.Bound = passing;
+    panes.Bound = passing + (this->Indirect ? 0.0 : spread);
   }
 }
 

@@ -11,13 +11,18 @@ namespace radiometry
 namespace
 {
 
-/// B = M + rho E at points, with the optics of the cells that meet there averaged.
+/// B = M + rho E + tau E_other at points, with the optics of the cells that meet there averaged.
+/// The back of a cell that is not two-sided reflects and emits nothing.
 FieldValues RadiosityAt(const Scene& scene, const std::vector<SurfacePoint>& points, int side,
-  bool emission, const FieldValues& irradiance)
+  const RadiosityOptions& options, const std::array<FieldValues, 2>& irradiance)
 {
   const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
   const std::vector<double>& reflectance = scene.Optics.DiffuseReflectance[side];
   const std::vector<double>& emitted = scene.Optics.EmittedExitance[side];
+  const std::vector<double>& through = scene.Optics.DiffuseTransmittance;
+  const FieldValues& here = irradiance[side];
+  const FieldValues& there = irradiance[1 - side];
+  const bool other = options.Transmission && !through.empty() && !there.Values.empty();
   FieldValues out;
   out.Values.assign(points.size() * bands, 0.0);
   out.Errors.assign(points.size() * bands, 0.0);
@@ -31,16 +36,21 @@ FieldValues RadiosityAt(const Scene& scene, const std::vector<SurfacePoint>& poi
     const double share = around.empty() ? 0.0 : 1.0 / static_cast<double>(around.size());
     for (std::size_t b = 0; b < bands; ++b)
     {
-      double rho = 0.0;
-      double m = 0.0;
+      double rho = 0.0, m = 0.0, tau = 0.0;
       for (const std::int32_t t : around)
       {
-        const std::size_t at = static_cast<std::size_t>(scene.TriangleCell[t]) * bands + b;
-        rho += share * reflectance[at];
-        m += emission && !emitted.empty() ? share * emitted[at] : 0.0;
+        const auto cell = static_cast<std::size_t>(scene.TriangleCell[t]);
+        const std::size_t at = cell * bands + b;
+        tau += other ? share * through[at] : 0.0;
+        if (side == 0 || scene.Optics.TwoSided[cell])
+        {
+          rho += share * reflectance[at];
+          m += options.Emission && !emitted.empty() ? share * emitted[at] : 0.0;
+        }
       }
-      out.Values[i * bands + b] = m + rho * irradiance.Values[i * bands + b];
-      out.Errors[i * bands + b] = rho * irradiance.Errors[i * bands + b];
+      const std::size_t k = i * bands + b;
+      out.Values[k] = m + rho * here.Values[k] + (other ? tau * there.Values[k] : 0.0);
+      out.Errors[k] = rho * here.Errors[k] + (other ? tau * there.Errors[k] : 0.0);
     }
   }
   return out;
@@ -98,7 +108,10 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   RadiositySimulation simulation(scene, options, kept);
   const double share = points.empty() ? 0.98 : (cells ? 0.8 : 0.6);
   out.Cells = simulation.Run({ monitor, 0.02, share, "radiosity" });
-  const int sides = options.BackFaces ? 2 : 1;
+  const std::vector<double>& through = scene.Optics.DiffuseTransmittance;
+  const bool diffusing =
+    std::any_of(through.begin(), through.end(), [](double share) { return share > 0.0; });
+  const int sides = options.BackFaces || diffusing ? 2 : 1;
   for (int side = 0; side < sides && !points.empty(); ++side)
   {
     std::vector<SurfacePoint> facing = points;
@@ -110,8 +123,10 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
     const double end = share + (0.98 - share) * (side + 1) / sides;
     out.PointIrradiance[side] =
       simulation.IrradianceAt(facing, { monitor, begin, end, "final gather" });
-    out.PointRadiosity[side] =
-      RadiosityAt(scene, facing, side, options.Emission, out.PointIrradiance[side]);
+  }
+  for (int side = 0; side < sides && !points.empty(); ++side)
+  {
+    out.PointRadiosity[side] = RadiosityAt(scene, points, side, options, out.PointIrradiance);
   }
 
   for (int side = 0; side < 2; ++side)

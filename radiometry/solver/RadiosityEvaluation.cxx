@@ -66,6 +66,8 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
     meanShare[b] = all > 0.0 ? difference / all : 0.0;
   }
   bool back = false;
+  Values leaving;
+  level.Optics.Leave(level.Irradiance, true, leaving);
   for (std::size_t e = 0; e < n; ++e)
   {
     Sums& s = sums[patches[e].Side];
@@ -79,8 +81,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
       const std::size_t k = e * nb + b, to = c * nb + b;
       s.Value[to] += a * level.Irradiance[k];
       s.Gathered[to] += a * (level.Irradiance[k] - level.First[k]);
-      s.Leaving[to] +=
-        a * (level.Optics.Exitance[k] + level.Optics.Reflectance[k] * level.Irradiance[k]);
+      s.Leaving[to] += a * leaving[k];
       s.Direct[to] += a * level.DirectError[k];
       s.FormFactor[to] += a * level.FormFactorError[k];
       s.Visibility[to] += a * a * level.VisibilityError[k] * level.VisibilityError[k];
@@ -167,15 +168,20 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
       result.Budget.Solver += share * worst.Solver;
     }
   }
-  // Radiosity's error: that of irradiance, reflected. Reflectance is a cell's own.
+  // Radiosity's error: that of irradiance, reflected, and of the other side's, let through. Both
+  // shares are a cell's own.
   for (std::size_t e = 0; e < n; ++e)
   {
     const std::size_t side = patches[e].Side;
+    const bool through = !level.Optics.Opposite.empty() && level.Optics.Opposite[e] >= 0;
     for (std::size_t b = 0; b < nb; ++b)
     {
       const std::size_t to = static_cast<std::size_t>(patches[e].Cell) * nb + b;
-      result.Radiosity[side].Errors[to] =
+      const double reflected =
         level.Optics.Reflectance[e * nb + b] * result.Irradiance[side].Errors[to];
+      result.Radiosity[side].Errors[to] = reflected +
+        (through ? level.Optics.Transmittance[e * nb + b] * result.Irradiance[1 - side].Errors[to]
+                 : 0.0);
     }
   }
   if (unfinished)

@@ -20,14 +20,14 @@ using Values = RadiosityLevel::Values;
 constexpr std::size_t EmitterPairs = 4000000;
 constexpr double DiscretisationSafety = 2.0;
 
-/// The system solved with one unknown for each group of elements. `guess`: what may leave the
+/// The system solved with one unknown for each group of elements. `guess`: what may arrive at the
 /// elements; null: nothing is known.
-SolveResult SolveGrouped(const GroupedOperator& grouped, const Values& rho, const Values& source,
-  int bands, SolveOptions options, const Values* guess, const StageProgress& stage)
+SolveResult SolveGrouped(const GroupedOperator& grouped, const std::vector<double>& areas,
+  const DiffuseScattering& scattering, const Values& source, int bands, SolveOptions options,
+  const Values* guess, const StageProgress& stage)
 {
   const std::size_t values = grouped.Size() * static_cast<std::size_t>(bands);
-  Values groupRho(values), groupSource(values), groupGuess;
-  grouped.Restrict(rho.data(), groupRho.data(), bands);
+  Values groupSource(values), groupGuess;
   grouped.Restrict(source.data(), groupSource.data(), bands);
   if (guess)
   {
@@ -35,7 +35,10 @@ SolveResult SolveGrouped(const GroupedOperator& grouped, const Values& rho, cons
     grouped.Restrict(guess->data(), groupGuess.data(), bands);
     options.Guess = &groupGuess;
   }
-  return SolveRadiosity(grouped, groupRho, groupSource, bands, options, {}, stage);
+  return SolveRadiosity(grouped,
+    scattering.Grouped(
+      static_cast<std::size_t>(bands), areas, grouped.Groups(), grouped.Size()),
+    groupSource, bands, options, {}, stage);
 }
 
 } // namespace
@@ -102,14 +105,16 @@ RadiosityLevel::RadiosityLevel(const RadiosityContext& context, ElementSet set)
 void RadiosityLevel::Prepare(const RadiosityContext& context)
 {
   const std::size_t values = this->Elements.Size() * context.Bands;
-  this->Optics = ElementOptics(context.Geometry, this->Elements, context.Options.Emission);
+  this->Optics = ElementOptics(context.Geometry, this->Elements, context.Options.Emission,
+    context.Options.Transmission);
   for (Values* v : { &this->First, &this->FirstError, &this->Irradiance, &this->DirectError,
          &this->FormFactorError, &this->VisibilityError, &this->Discretisation,
          &this->SolverError })
   {
     v->assign(values, 0.0);
   }
-  this->HasGuess = this->HasGuess && this->Leaving.size() == values;
+  this->HasGuess = this->HasGuess && this->Gathered.size() == values;
+  this->Gathered.resize(values, 0.0);
   this->Leaving.resize(values, 0.0);
   const auto positive = [](double m) { return m > 0.0; };
   this->Emitters = {};
@@ -129,6 +134,7 @@ void RadiosityLevel::BeginFrom(const RadiosityLevel& earlier, std::size_t bands)
     {
       const std::size_t from = static_cast<std::size_t>(origin[e].Element) * bands;
       std::copy_n(earlier.Leaving.data() + from, bands, this->Leaving.data() + e * bands);
+      std::copy_n(earlier.Gathered.data() + from, bands, this->Gathered.data() + e * bands);
     }
   }
   this->HasGuess = true;
@@ -138,8 +144,8 @@ std::size_t RadiosityLevel::MemoryBytes() const
 {
   std::size_t bytes = this->F ? this->F->MemoryBytes() : 0;
   bytes += this->Elements.Size() * (sizeof(Patch) + 64);
-  for (const Values* v : { &this->First, &this->FirstError, &this->Leaving, &this->Irradiance,
-         &this->DirectError, &this->FormFactorError, &this->VisibilityError, &this->Discretisation,
+  for (const Values* v : { &this->First, &this->FirstError, &this->Leaving, &this->Gathered,
+         &this->Irradiance, &this->DirectError, &this->FormFactorError, &this->VisibilityError, &this->Discretisation,
          &this->SolverError, &this->InverseBound })
   {
     bytes += v->size() * sizeof(double);
@@ -248,33 +254,22 @@ void RadiosityLevel::Solve(
   const std::size_t values = n * context.Bands;
   const int bands = static_cast<int>(context.Bands);
   const bool perCell = context.Options.Refinement == RefinementMode::Off;
-  Values source(values), gathered(values), rho = this->Optics.Reflectance;
-  if (!context.Options.Interreflection)
+  // Without interreflection only what is emitted travels on.
+  const DiffuseScattering scattering = context.Options.Interreflection
+    ? this->Optics.Scattering()
+    : DiffuseScattering(Values(values, 0.0));
+  Values source(values);
+  scattering.Apply(this->First.data(), source.data(), context.Bands);
+  for (std::size_t k = 0; k < values && this->Emitters.Empty(); ++k)
   {
-    std::fill(rho.begin(), rho.end(), 0.0);
-  }
-  for (std::size_t k = 0; k < values; ++k)
-  {
-    // Without interreflection only what is emitted travels on.
-    source[k] = rho[k] * this->First[k] + (this->Emitters.Empty() ? this->Optics.Exitance[k] : 0.0);
+    source[k] += this->Optics.Exitance[k];
   }
 
   SolveOptions options;
   options.Tolerance = std::clamp(1e-3 * context.Options.RelativeTolerance, 1e-9, 1e-5);
-  const Values guess = this->HasGuess ? this->Leaving : Values();
+  options.Threads = context.Options.Threads;
+  const Values guess = this->HasGuess ? this->Gathered : Values();
   options.Guess = this->HasGuess ? &guess : nullptr;
-  // The bound of an inverse holds for all that reflects no more.
-  Values greatest(n, 0.0);
-  for (std::size_t k = 0; k < values; ++k)
-  {
-    greatest[k / context.Bands] = std::max(greatest[k / context.Bands], rho[k]);
-  }
-  if (!this->InverseBound.empty() &&
-    !std::equal(greatest.begin(), greatest.end(), this->BoundedReflectance.begin(),
-      [](double now, double before) { return now <= before; }))
-  {
-    this->InverseBound.clear();
-  }
   options.InverseBound = this->InverseBound.empty() ? nullptr : &this->InverseBound;
   SolveResult r;
   if (perCell)
@@ -282,11 +277,11 @@ void RadiosityLevel::Solve(
     std::size_t count = 0;
     const std::vector<std::int32_t> group = this->Elements.CellGroups(count);
     const GroupedOperator grouped(*this->F, group, count);
-    r = SolveGrouped(
-      grouped, rho, source, bands, options, this->HasGuess ? &guess : nullptr, stage);
+    r = SolveGrouped(grouped, this->F->Areas(), scattering, source, bands, options,
+      this->HasGuess ? &guess : nullptr, stage);
     grouped.Prolong(r.Radiosity.data(), this->Leaving.data(), bands);
     grouped.Prolong(r.Error.data(), this->SolverError.data(), bands);
-    this->F->Apply(this->Leaving.data(), gathered.data(), bands);
+    this->F->Apply(this->Leaving.data(), this->Gathered.data(), bands);
   }
   else
   {
@@ -295,21 +290,17 @@ void RadiosityLevel::Solve(
     {
       cells[e] = this->Elements.GetPatches()[e].Cell;
     }
-    r = SolveRadiosity(*this->F, rho, source, bands, options, cells, stage);
+    r = SolveRadiosity(*this->F, scattering, source, bands, options, cells, stage);
     this->Leaving = std::move(r.Radiosity);
     this->SolverError = std::move(r.Error);
-    gathered = std::move(r.Irradiance);
+    this->Gathered = std::move(r.Irradiance);
   }
   this->Iterations += r.Iterations;
   this->HasGuess = true;
-  if (this->InverseBound.empty())
-  {
-    this->InverseBound = std::move(r.InverseBound);
-    this->BoundedReflectance = std::move(greatest);
-  }
+  this->InverseBound = std::move(r.InverseBound);
   for (std::size_t k = 0; k < values; ++k)
   {
-    this->Irradiance[k] = this->First[k] + gathered[k];
+    this->Irradiance[k] = this->First[k] + this->Gathered[k];
   }
 
   // What the operator does not know, given what leaves.
@@ -327,10 +318,7 @@ void RadiosityLevel::Solve(
 
   // Errors of direct light travel on as light does.
   Values carried(values), arrived(values);
-  for (std::size_t k = 0; k < values; ++k)
-  {
-    carried[k] = rho[k] * this->FirstError[k];
-  }
+  scattering.Apply(this->FirstError.data(), carried.data(), context.Bands);
   this->F->Apply(carried.data(), arrived.data(), bands);
   for (std::size_t k = 0; k < values; ++k)
   {
@@ -338,7 +326,7 @@ void RadiosityLevel::Solve(
   }
   if (discretise)
   {
-    this->Discretise(context, rho, source, gathered, stage);
+    this->Discretise(context, scattering, source, stage);
   }
 }
 
@@ -376,8 +364,8 @@ void RadiosityLevel::PoolSampling(const RadiosityContext& context)
 /// What constant elements change, from what merging them changes. The differences of gathered light
 /// are taken over the same pairs or rays; what remains of their sampling is taken off, since
 /// VisibilityError has it already.
-void RadiosityLevel::Discretise(const RadiosityContext& context, const Values& rho,
-  const Values& source, const Values& gathered, const StageProgress& stage)
+void RadiosityLevel::Discretise(const RadiosityContext& context,
+  const DiffuseScattering& scattering, const Values& source, const StageProgress& stage)
 {
   const std::size_t n = this->Elements.Size();
   const std::size_t nb = context.Bands;
@@ -388,14 +376,16 @@ void RadiosityLevel::Discretise(const RadiosityContext& context, const Values& r
   SolveOptions rough;
   rough.Tolerance = std::clamp(0.01 * context.Options.RelativeTolerance, 1e-8, 1e-4);
   rough.InverseBound = &none;
+  rough.Threads = context.Options.Threads;
 
   if (context.Options.Refinement == RefinementMode::Off && this->Elements.Depth(0) > 0)
   {
     // The elements are finer than the cells: the solve without that restriction.
-    const SolveResult free = SolveRadiosity(*this->F, rho, source, bands, rough, {}, stage);
+    rough.Guess = &this->Gathered;
+    const SolveResult free = SolveRadiosity(*this->F, scattering, source, bands, rough, {}, stage);
     for (std::size_t k = 0; k < values; ++k)
     {
-      this->Discretisation[k] = 2.0 * (free.Irradiance[k] - gathered[k]);
+      this->Discretisation[k] = 2.0 * (free.Irradiance[k] - this->Gathered[k]);
     }
     return;
   }
@@ -403,13 +393,16 @@ void RadiosityLevel::Discretise(const RadiosityContext& context, const Values& r
   // Merged by fours and by sixteens: what the first changes, and how much less that is than what
   // the second does, tell what elements of no size would change.
   std::array<Values, 2> change;
-  Values finer = this->Leaving, arrived(values), noise(values), unused(values);
+  Values finer = this->Leaving, guess = this->Gathered;
+  Values arrived(values), noise(values), unused(values);
   for (int levels = 1; levels <= 2; ++levels)
   {
     std::size_t count = 0;
     std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, levels, count);
     const GroupedOperator grouped(*this->F, std::move(group), count);
-    const SolveResult coarse = SolveGrouped(grouped, rho, source, bands, rough, &finer, stage);
+    const SolveResult coarse = SolveGrouped(
+      grouped, this->F->Areas(), scattering, source, bands, rough, &guess, stage);
+    grouped.Prolong(coarse.Irradiance.data(), guess.data(), bands);
     Values merged(values);
     grouped.Prolong(coarse.Radiosity.data(), merged.data(), bands);
     for (std::size_t k = 0; k < values; ++k)

@@ -83,6 +83,7 @@ struct RadiosityLevel
   Values First;        // irradiance by lights and such emitters
   Values FirstError;
   Values Leaving;     // radiosity but for what Emitters treat
+  Values Gathered;    // irradiance by what leaves
   Values Irradiance;  // all
   Values DirectError; // FirstError and what it adds by reflection
   Values FormFactorError, VisibilityError, Discretisation, SolverError;
@@ -91,14 +92,13 @@ struct RadiosityLevel
   double Tolerance = 0.0;       // of F
   double ExchangeSeconds = 0.0; // that F took
   int Rays = 0;                 // of each element at first; 0: as always
-  bool HasGuess = false;        // Leaving is worth beginning from
+  bool HasGuess = false;        // Gathered is worth beginning from
   double LightMean = 0.0; // of what lights give, over the elements
   bool TimedOut = false;  // lights were not all looked at
   std::unique_ptr<FormFactorOperator> F;
   MonteCarloOperator* Carlo = nullptr; // F, when it is one
   int Iterations = 0;
-  Values InverseBound; // of the system, from its first solve
-  Values BoundedReflectance; // of each element's most reflecting band, that it holds up to
+  Values InverseBound; // of the system, from its last solve
 
   /// Of operator and elements.
   std::size_t MemoryBytes() const;
@@ -107,8 +107,8 @@ private:
   void AddLights(const RadiosityContext& context, const std::vector<Patch>& patches,
     double knownMean, double secondsLeft, const StageProgress& stage, Values& light, Values& error);
   void PoolSampling(const RadiosityContext& context);
-  void Discretise(const RadiosityContext& context, const Values& rho, const Values& source,
-    const Values& gathered, const StageProgress& stage);
+  void Discretise(const RadiosityContext& context, const DiffuseScattering& scattering,
+    const Values& source, const StageProgress& stage);
 };
 
 } // namespace radiometry

@@ -31,6 +31,8 @@ std::vector<std::uint8_t> RadiosityLevel::Uneven(
   const std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, 1, count);
   Values mean(count * nb, 0.0), groupArea(count, 0.0), flux(nb, 0.0);
   double area = 0.0;
+  Values sent;
+  this->Optics.Leave(this->First, false, sent);
   for (std::size_t e = 0; e < n; ++e)
   {
     const auto g = static_cast<std::size_t>(group[e]);
@@ -38,8 +40,7 @@ std::vector<std::uint8_t> RadiosityLevel::Uneven(
     area += areas[e];
     for (std::size_t b = 0; b < nb; ++b)
     {
-      const double reflected =
-        areas[e] * this->Optics.Reflectance[e * nb + b] * this->First[e * nb + b];
+      const double reflected = areas[e] * sent[e * nb + b];
       mean[g * nb + b] += reflected;
       flux[b] += reflected;
     }
@@ -55,7 +56,7 @@ std::vector<std::uint8_t> RadiosityLevel::Uneven(
     double worst = 0.0;
     for (std::size_t b = 0; b < nb; ++b)
     {
-      const double reflected = this->Optics.Reflectance[e * nb + b] * this->First[e * nb + b];
+      const double reflected = sent[e * nb + b];
       if (flux[b] > 0.0)
       {
         worst = std::max(

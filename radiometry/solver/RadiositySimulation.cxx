@@ -61,10 +61,10 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   }
 
   // When nothing travels on, what the lights give is all.
-  const ElementOptics optics(m.Context.Geometry, elements, m.Context.Options.Emission);
+  const ElementOptics optics(m.Context.Geometry, elements, m.Context.Options.Emission,
+    m.Context.Options.Transmission);
   const auto positive = [](double v) { return v > 0.0; };
-  const bool reflects = m.Context.Options.Interreflection &&
-    std::any_of(optics.Reflectance.begin(), optics.Reflectance.end(), positive);
+  const bool reflects = m.Context.Options.Interreflection && !optics.Scattering().Black();
   const bool emits = std::any_of(optics.Exitance.begin(), optics.Exitance.end(), positive);
   const bool lit = emits || !m.Context.Geometry.GlobalAmbient.empty() ||
     std::any_of(m.Context.Geometry.Lights.begin(), m.Context.Geometry.Lights.end(),
@@ -138,11 +138,12 @@ FieldValues RadiositySimulation::IrradianceAt(
     const double allowed = std::max(m.Context.Options.AbsoluteTolerance,
       m.Context.Options.RelativeTolerance * DarkestShare * mean);
     // Sampling of the elements' own irradiance reaches a point that sees few of them.
-    std::vector<double> sampling(level.VisibilityError.size());
+    std::vector<double> sampling;
+    level.Optics.Leave(level.VisibilityError, false, sampling);
     const double coverage = level.Carlo ? CarloCoverage : DenseCoverage;
     for (std::size_t k = 0; k < sampling.size(); ++k)
     {
-      sampling[k] = level.Optics.Reflectance[k] * level.VisibilityError[k] / coverage;
+      sampling[k] /= coverage;
     }
     const GatherResult g = GatherAtPoints(m.Context.Geometry, m.Context.Occluders, level.Elements,
       level.Leaving, sampling, static_cast<int>(m.Context.Bands), points, allowed, exchange,
