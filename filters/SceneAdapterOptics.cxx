@@ -84,6 +84,41 @@ void ReadArray(const std::vector<SceneAdapter::Block>& blocks, const std::string
   }
 }
 
+/// Reads the exponents of the specular lobes of one side, one a cell; `values` stays as it is when
+/// no block has any. Infinity is a perfect mirror.
+void ReadShininess(const std::vector<SceneAdapter::Block>& blocks, const std::string& name,
+  std::size_t cells, std::vector<double>& values)
+{
+  for (const SceneAdapter::Block& block : blocks)
+  {
+    vtkDataArray* array = FindArray(block, name);
+    if (!array)
+    {
+      continue;
+    }
+    if (array->GetNumberOfComponents() != 1)
+    {
+      throw InputError(block.Name + name, -1,
+        std::to_string(array->GetNumberOfComponents()) + " components", "one: the Phong exponent");
+    }
+    if (values.empty())
+    {
+      values.assign(cells, radiometry::DefaultShininess);
+    }
+    const bool whole = array->GetNumberOfTuples() == 1 && block.Cells != 1;
+    for (vtkIdType c = 0; c < block.Cells; ++c)
+    {
+      const double value = array->GetComponent(whole ? 0 : c, 0);
+      if (!(value >= 0.0))
+      {
+        throw InputError(block.Name + name, whole ? 0 : c, value,
+          "a Phong exponent of at least 0 (1e6 and more, or infinite: a perfect mirror)");
+      }
+      values[block.FirstCell + c] = value;
+    }
+  }
+}
+
 /// What is reflected and transmitted may not exceed what came.
 void CheckSums(
   const std::vector<SceneAdapter::Block>& blocks, const radiometry::Materials& optics)
@@ -188,6 +223,14 @@ void SceneAdapter::ReadMaterials(radiometry::Scene& scene) const
   const double infinite = std::numeric_limits<double>::infinity();
   readSides(names::DiffuseReflectance, 1.0, this->DiffuseReflectance, optics.DiffuseReflectance);
   readSides(names::SpecularReflectance, 1.0, 0.0, optics.SpecularReflectance);
+  ReadShininess(this->Surface, names::Shininess, scene.Cells, optics.Shininess[0]);
+  optics.Shininess[1] = optics.Shininess[0];
+  ReadShininess(this->Surface, std::string(names::BackPrefix) + names::Shininess, scene.Cells,
+    optics.Shininess[1]);
+  if (optics.Shininess[0].empty() && !optics.Shininess[1].empty())
+  {
+    optics.Shininess[0].assign(scene.Cells, radiometry::DefaultShininess);
+  }
   readSides(names::EmittedExitance, infinite, 0.0, optics.EmittedExitance);
   read(names::DiffuseTransmittance, 1.0, 0.0, optics.DiffuseTransmittance);
   read(names::Transmittance, 1.0, 0.0, optics.Transmittance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/effects/EffectPlan.h"
 
+#include "radiometry/geometry/SolidAngle.h"
 #include "radiometry/visibility/Convexity.h"
 
 #include <algorithm>
@@ -68,6 +69,89 @@ bool LightsInside(const Scene& scene)
   return true;
 }
 
+/// Specular reflectance of a triangle's cell, the greatest of sides and bands.
+double SpecularOf(const Materials& optics, std::int32_t cell)
+{
+  double greatest = 0.0;
+  for (const std::vector<double>& values : optics.SpecularReflectance)
+  {
+    for (int b = 0; b < optics.Bands && !values.empty(); ++b)
+    {
+      greatest = std::max(greatest, values[static_cast<std::size_t>(cell * optics.Bands + b)]);
+    }
+  }
+  return greatest;
+}
+
+/// What all mirrors send on of point-like and directional lights and of skies (of which no plane gets
+/// more than `sky`, W/m^2), were nothing in the way and every
+/// mirror two-sided [W, brightest band], and the smallest cell's area it may fall on.
+double SpecularFlux(const Scene& scene, double sky, double& smallest)
+{
+  constexpr double Sphere = 4.0 * 3.14159265358979323846;
+  constexpr std::size_t MostPairs = 20000000;
+  std::vector<double> areas(scene.Cells, 0.0);
+  std::vector<std::size_t> mirrors;
+  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
+  {
+    areas[static_cast<std::size_t>(scene.TriangleCell[t])] += Area(scene.TriangleAt(t));
+    if (SpecularOf(scene.Optics, scene.TriangleCell[t]) > 0.0)
+    {
+      mirrors.push_back(t);
+    }
+  }
+  smallest = std::numeric_limits<double>::infinity();
+  for (const double a : areas)
+  {
+    smallest = a > 0.0 ? std::min(smallest, a) : smallest;
+  }
+  const bool few = mirrors.size() * scene.Lights.size() <= MostPairs;
+  const double most = Greatest(scene.Optics.SpecularReflectance);
+  double flux = 0.0;
+  for (const std::size_t t : mirrors)
+  {
+    flux += 2.0 * sky * SpecularOf(scene.Optics, scene.TriangleCell[t]) * Area(scene.TriangleAt(t));
+  }
+  for (const Light& light : scene.Lights)
+  {
+    if (!light.Enabled || light.Type == LightType::Area || light.Type == LightType::Environment)
+    {
+      continue;
+    }
+    const double intensity = Greatest(light.Intensity);
+    const bool beam = light.Type == LightType::Directional;
+    if (!few && !beam)
+    {
+      flux += most * intensity * Sphere;
+      continue;
+    }
+    for (const std::size_t t : mirrors)
+    {
+      const Triangle3 v = scene.TriangleAt(t);
+      const double reflected = SpecularOf(scene.Optics, scene.TriangleCell[t]) * intensity;
+      flux += reflected *
+        (beam ? std::fabs(0.5 * Dot(AreaNormal2(v), light.Direction))
+              : std::fabs(SolidAngle(v[0] - light.Position, v[1] - light.Position,
+                  v[2] - light.Position)));
+    }
+  }
+  return flux;
+}
+
+/// The greatest pi L of panels, W/m^2, brightest band.
+double GreatestExtended(const Scene& scene)
+{
+  double greatest = 0.0;
+  for (const Light& light : scene.Lights)
+  {
+    if (light.Enabled && light.Type == LightType::Area)
+    {
+      greatest = std::max(greatest, Greatest(light.Intensity));
+    }
+  }
+  return greatest;
+}
+
 } // namespace
 
 const char* EffectName(Effect effect)
@@ -82,6 +166,7 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
   const EffectAbilities& abilities, bool freePoints)
   : Decisions(EffectCount)
   , Indirect(abilities.Interreflection)
+  , Paths(abilities.Paths)
 {
   const Materials& optics = scene.Optics;
   const Convexity convexity = FindConvexity(scene);
@@ -146,20 +231,37 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
                        : (lit ? "no front faces another" : "no light is on"),
     "surfaces face each other and reflect up to " + std::to_string(reflectance) +
       (diffused > 0.0 ? ", let through diffusely up to " + std::to_string(diffused) : ""));
-  decide(Effect::SpecularTransport, specular > 0.0, abilities.SpecularTransport,
-    "no surface reflects specularly", "surfaces reflect specularly");
-  const bool panes = transmitted > 0.0 && (*this)[Effect::Occlusion].Present;
+  const bool facing = convexity != Convexity::Body || backs || freePoints;
+  const std::string noPaths = abilities.NoPaths.empty() ? "" : " (" + abilities.NoPaths + ")";
+  decide(Effect::SpecularTransport, specular > 0.0 && facing && lit, abilities.Paths,
+    specular <= 0.0 ? "no surface reflects specularly"
+                    : (lit ? "nothing faces the surfaces that reflect specularly" : "no light is on"),
+    "surfaces reflect specularly up to " + std::to_string(specular) +
+      (abilities.Paths ? ": light is followed over them" : noPaths));
+  EffectDecision& mirrors = (*this)[Effect::SpecularTransport];
+  const double lost = 1.0 - reflectance - specular - transmitted - diffused;
+  if (mirrors.Simulated && specular <= 0.1 * abilities.Tolerance * lost &&
+    switches[static_cast<int>(Effect::SpecularTransport)] == EffectSwitch::Auto)
+  {
+    mirrors.Simulated = false;
+    mirrors.Why = "surfaces reflect specularly up to " + std::to_string(specular) +
+      " only: less than a tenth of the tolerance";
+  }
+  this->Panes = transmitted > 0.0 && (*this)[Effect::Occlusion].Present;
   const std::string through = diffused > 0.0
     ? "cells let up to " + std::to_string(diffused) + " of the light through diffusely" +
       (this->Indirect ? "" : " (direct light alone does not follow it: bound given)")
     : "";
-  const std::string straight = panes
-    ? "panes let up to " + std::to_string(transmitted) + " of the direct light through" +
-      (this->Indirect ? "; what surfaces send or reflect does not pass them (bound given)" : "")
-    : "";
-  decide(Effect::Transmission, panes || diffused > 0.0, abilities.Transmission,
+  const std::string follows = !this->Indirect
+    ? " of the direct light through"
+    : (abilities.Paths ? " of the direct light and of what surfaces send or reflect through"
+                       : " of the direct light through; what surfaces send or reflect does not pass "
+                         "them (bound given)" + noPaths);
+  const std::string straight =
+    this->Panes ? "panes let up to " + std::to_string(transmitted) + follows : "";
+  decide(Effect::Transmission, this->Panes || diffused > 0.0, abilities.Transmission,
     transmitted > 0.0 ? "nothing stands between a light and a cell" : "every surface is opaque",
-    straight + (panes && diffused > 0.0 ? "; " : "") + through);
+    straight + (this->Panes && diffused > 0.0 ? "; " : "") + through);
   decide(Effect::BackFaces, twoSided, true, "no surface is two-sided",
     "two-sided surfaces receive on their backs");
   decide(Effect::Emission, emitted > 0.0, abilities.Emission, "no surface emits",
@@ -170,6 +272,13 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
     "spot lights have a cone or an exponent");
   decide(Effect::Attenuation, legacy, true, "all lights obey the inverse square law",
     "lights carry a legacy attenuation a + b r + c r^2 other than r^2");
+}
+
+bool EffectPlan::CallsForPaths() const
+{
+  return this->Paths &&
+    (this->Simulates(Effect::SpecularTransport) ||
+      (this->Panes && this->Simulates(Effect::Transmission)));
 }
 
 bool EffectPlan::LeavesOut() const
@@ -199,7 +308,7 @@ void EffectPlan::Bound(
 
   // Through panes: what comes straight; then all that any surface sends, and what that adds by
   // reflection.
-  const double passing = this->Indirect
+  const double passing = this->Indirect && !this->Paths
     ? orNothing(transmitted,
         reflectance < 1.0 ? transmitted * indirect / (1.0 - diffuse - diffused) : infinite)
     : 0.0;
@@ -207,11 +316,25 @@ void EffectPlan::Bound(
   const double spread = orNothing(diffused,
     reflectance < 1.0 ? diffused * (direct + ambient + indirect) / (1.0 - reflectance) : infinite);
 
+  // Over mirrors the radiance of extended sources stays what it is; that of points may be gathered.
+  double specularBound = 0.0;
+  const EffectDecision& mirrors = (*this)[Effect::SpecularTransport];
+  if (mirrors.Present && !mirrors.Simulated)
+  {
+    double smallest = 0.0;
+    const double flux = SpecularFlux(scene, sky, smallest);
+    const double extended =
+      specular * (GreatestExtended(scene) + ambient + indirect + emitted);
+    specularBound = reflectance < 1.0
+      ? (extended + orNothing(flux, flux / smallest)) / (1.0 - reflectance)
+      : orNothing(extended + flux, infinite);
+  }
+
   const double bounds[EffectCount] = {
     peak + emitted,                                                          // Occlusion
     reflectance < 1.0 ? (peak + ambient + emitted) * reflectance / (1.0 - reflectance)
                       : orNothing(peak + ambient + emitted, infinite),       // Interreflection
-    orNothing(specular, specular * (direct + ambient + indirect)),           // SpecularTransport
+    specularBound,                                                           // SpecularTransport
     orNothing(transmitted, transmitted * (direct + emitted) + passing) + spread, // Transmission
     peakBack,                                                                // BackFaces
     orNothing(emitted, reflectance < 1.0 ? emitted / (1.0 - reflectance) : infinite), // Emission

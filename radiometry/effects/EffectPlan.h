@@ -41,7 +41,7 @@ struct EffectDecision
   std::string Why;
   double Bound = 0.0;    // greatest change of any irradiance value that leaving it out can make,
                          // W/m^2, in any band; infinite where none can be given; 0 when simulated
-                         // (Transmission: what is left out of it, the indirect light)
+                         // (Transmission: what is left out of it, where that is the indirect light)
   double Seconds = 0.0;  // spent on it
 };
 
@@ -50,9 +50,13 @@ struct EffectAbilities
 {
   bool Interreflection = false; // false for direct light alone
   bool Emission = false;
-  bool SpecularTransport = false;
-  bool Transmission = false; // of direct light; light that surfaces send never passes panes
+  bool Transmission = false; // of direct light
   bool Environment = false;
+  /// Rays that go on over mirrors and through panes: specular transport, and panes for what surfaces
+  /// send.
+  bool Paths = false;
+  std::string NoPaths;  // why not, in words
+  double Tolerance = 0.0; // relative: what specular reflection cannot change by that is left out
 };
 
 /// Decides, effect by effect, what the scene calls for, before anything is simulated.
@@ -75,6 +79,10 @@ public:
   EffectDecision& operator[](Effect effect) { return this->Decisions[static_cast<int>(effect)]; }
   bool Simulates(Effect effect) const { return (*this)[effect].Simulated; }
 
+  /// True when light has to be followed over mirrors or through panes on its way from surface to
+  /// surface: the MonteCarlo method alone does that.
+  bool CallsForPaths() const;
+
   /// True when something has to be bounded.
   bool LeavesOut() const;
 
@@ -83,12 +91,17 @@ public:
   /// (W/m^2, strongest band); `peakBack` the same of back faces; `spot` and `attenuation` the
   /// greatest change of a cell's unshadowed irradiance by those effects.
   /// `sky`: the greatest irradiance that environment lights can give.
+  ///   Specular  of any cell's average: what mirrors may send on of the radiance of surfaces, panels
+  ///             and skies, all around; and all that they get from point-like and directional lights
+  ///             brought to one cell, for a hollow mirror may do that
   void Bound(const Scene& scene, double peak, double peakBack, double spot, double attenuation,
     double sky = 0.0);
 
 private:
   std::vector<EffectDecision> Decisions;
   bool Indirect; // the run follows light from surface to surface
+  bool Paths;    // ... over mirrors and through panes
+  bool Panes = false; // that stand between something
 };
 
 } // namespace radiometry

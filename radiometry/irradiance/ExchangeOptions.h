@@ -5,9 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 namespace radiometry
 {
+
+class SpecularSurfaces;
 
 /// What the operators need to know of the wanted result.
 struct ExchangeOptions
@@ -17,6 +20,9 @@ struct ExchangeOptions
   std::size_t MemoryLimit = 0; // bytes; 0: none
   int Threads = 0;             // 0: all
   std::uint64_t Seed = 0;      // results of different seeds are independent
+  /// Where light goes on over mirrors and through panes (Monte Carlo alone); null: it ends at what it
+  /// meets.
+  std::shared_ptr<const SpecularSurfaces> Paths;
   const Communicator* Ranks = nullptr; // that share rows; null: this process alone
 };
 

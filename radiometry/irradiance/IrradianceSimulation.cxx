@@ -125,7 +125,9 @@ void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double pe
     without(Effect::SpotShape, &DirectOptions::SpotShape, spot);
     without(Effect::Attenuation, &DirectOptions::Attenuation, attenuation);
   }
-  const double sky = leftOut(Effect::Environment) ? GreatestSkyIrradiance(scene) : 0.0;
+  const double sky = leftOut(Effect::Environment) || leftOut(Effect::SpecularTransport)
+    ? GreatestSkyIrradiance(scene)
+    : 0.0;
   plan.Bound(scene, peak, peakBack, spot, attenuation, sky);
 }
 

@@ -11,6 +11,10 @@
 namespace radiometry
 {
 
+/// The Phong exponent of cells without one, and that from which a surface is a perfect mirror.
+inline constexpr double DefaultShininess = 10.0;
+inline constexpr double MirrorShininess = 1e6;
+
 /// Optical properties of the cells of a surface. Arrays hold cells x bands values, cell by cell.
 /// Index 0 is the front, 1 the back.
 struct Materials

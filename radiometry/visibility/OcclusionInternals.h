@@ -66,6 +66,7 @@ struct OcclusionScene::Internals
   static constexpr std::size_t PacketSize = 16;
   void OccludedPacket(RayQuery* queries, std::size_t count, std::uint8_t* hidden) const;
   SurfaceHit Closest(RayQuery q) const;
+  void ClosestPacket(RayQuery* queries, std::size_t count, SurfaceHit* hits) const;
 };
 
 } // namespace radiometry

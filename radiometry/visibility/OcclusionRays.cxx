@@ -111,6 +111,26 @@ void FillRay(RTCRay& ray, const RayQuery& q, double begin, double end)
   ray.flags = 0;
 }
 
+/// Puts a ray in its place of a packet.
+template <typename Packet>
+void FillRay(Packet& rays, std::size_t k, const RayQuery& q, double end)
+{
+  RTCRay ray;
+  FillRay(ray, q, 0.0, end);
+  rays.org_x[k] = ray.org_x;
+  rays.org_y[k] = ray.org_y;
+  rays.org_z[k] = ray.org_z;
+  rays.dir_x[k] = ray.dir_x;
+  rays.dir_y[k] = ray.dir_y;
+  rays.dir_z[k] = ray.dir_z;
+  rays.tnear[k] = ray.tnear;
+  rays.tfar[k] = ray.tfar;
+  rays.time[k] = ray.time;
+  rays.mask[k] = ray.mask;
+  rays.id[k] = static_cast<unsigned int>(k);
+  rays.flags[k] = 0;
+}
+
 /// Where a ray starts outside the box, the filter's measure of "near the start" moves with it.
 RayQuery From(const RayQuery& q, double begin)
 {
@@ -200,20 +220,7 @@ void OcclusionScene::Internals::OccludedPacket(
       q = From(q, begin);
       ends[k] -= begin;
     }
-    RTCRay ray;
-    FillRay(ray, q, 0.0, ends[k]);
-    rays.org_x[k] = ray.org_x;
-    rays.org_y[k] = ray.org_y;
-    rays.org_z[k] = ray.org_z;
-    rays.dir_x[k] = ray.dir_x;
-    rays.dir_y[k] = ray.dir_y;
-    rays.dir_z[k] = ray.dir_z;
-    rays.tnear[k] = ray.tnear;
-    rays.tfar[k] = ray.tfar;
-    rays.time[k] = ray.time;
-    rays.mask[k] = ray.mask;
-    rays.id[k] = static_cast<unsigned int>(k);
-    rays.flags[k] = 0;
+    FillRay(rays, k, q, ends[k]);
     valid[k] = -1;
     any = true;
   }
@@ -298,6 +305,84 @@ SurfaceHit OcclusionScene::Internals::Closest(RayQuery q) const
   this->Complete(q, result);
   result.Distance += skipped;
   return result;
+}
+
+void OcclusionScene::Internals::ClosestPacket(
+  RayQuery* queries, std::size_t count, SurfaceHit* hits) const
+{
+  alignas(64) int valid[PacketSize] = {};
+  RTCRayHit16 rays;
+  double ends[PacketSize] = {};
+  double skipped[PacketSize] = {};
+  bool any = false;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    RayQuery& q = queries[k];
+    double begin = 0.0;
+    hits[k] = {};
+    if (!this->Handle || !this->Clip(q, begin, ends[k]))
+    {
+      continue;
+    }
+    if (q.Exact)
+    {
+      hits[k] = this->ExactClosest(q, begin, ends[k]);
+      if (hits[k].Triangle >= 0)
+      {
+        this->Complete(q, hits[k]);
+      }
+      continue;
+    }
+    if (begin > 0.0)
+    {
+      q = From(q, begin);
+      ends[k] -= begin;
+      skipped[k] = begin;
+    }
+    FillRay(rays.ray, k, q, ends[k]);
+    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.primID[k] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    valid[k] = -1;
+    any = true;
+  }
+  if (!any)
+  {
+    return;
+  }
+  FilteredQuery query(queries, true);
+#if RTC_VERSION_MAJOR >= 4
+  auto arguments = query.Arguments<RTCIntersectArguments>(rtcInitIntersectArguments);
+  rtcIntersect16(valid, this->Handle, &rays, &arguments);
+#else
+  rtcIntersect16(valid, this->Handle, query.Context(), &rays);
+#endif
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    if (valid[k] == 0)
+    {
+      continue;
+    }
+    SurfaceHit& hit = hits[k];
+    if (rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
+    {
+      hit.Triangle = static_cast<std::int32_t>(rays.hit.primID[k]);
+      hit.Distance = rays.ray.tfar[k] - EndMargin;
+    }
+    if (queries[k].Ambiguous)
+    {
+      const SurfaceHit exact = this->ExactClosest(queries[k], 0.0, ends[k]);
+      if (exact.Triangle >= 0 && (hit.Triangle < 0 || exact.Distance < hit.Distance))
+      {
+        hit = exact;
+      }
+    }
+    if (hit.Triangle >= 0)
+    {
+      this->Complete(queries[k], hit);
+      hit.Distance += skipped[k];
+    }
+  }
 }
 
 } // namespace radiometry

@@ -254,6 +254,25 @@ std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal, double ro
   return found;
 }
 
+void OcclusionScene::Closest(
+  const RayEnd* from, const Vec3* directions, std::size_t count, SurfaceHit* hits) const
+{
+  RayQuery queries[Internals::PacketSize];
+  for (std::size_t k = 0; k < count; k += Internals::PacketSize)
+  {
+    const std::size_t n = std::min(Internals::PacketSize, count - k);
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      queries[j] = this->Impl->MakeQuery(from[k + j], directions[k + j]);
+    }
+    this->Impl->ClosestPacket(queries, n, hits + k);
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      hits[k + j].Distance /= this->Impl->Scale * Length(directions[k + j]);
+    }
+  }
+}
+
 SurfaceHit OcclusionScene::Closest(const RayEnd& from, const Vec3& direction) const
 {
   SurfaceHit hit = this->Impl->Closest(this->Impl->MakeQuery(from, direction));

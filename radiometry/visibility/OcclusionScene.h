@@ -80,6 +80,10 @@ public:
   std::int32_t Touching(Vec3& point, const Vec3& normal, double rounding) const;
   /// The first triangle along a ray.
   SurfaceHit Closest(const RayEnd& from, const Vec3& direction) const;
+  /// The same along many rays. Fastest where neighbours in the list begin close to each other and
+  /// run in much the same direction.
+  void Closest(
+    const RayEnd* from, const Vec3* directions, std::size_t count, SurfaceHit* hits) const;
 
   /// The tree over the scene's triangles, in coordinates of its own.
   const BoxTree& Tree() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/shading/LightingModel.h"
-#include "radiometry/shading/Reflectance.h"
+#include "radiometry/scene/Reflectance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/shading/Reflectance.h"
+#include "radiometry/scene/Reflectance.h"
 
 #include <algorithm>
 #include <array>
