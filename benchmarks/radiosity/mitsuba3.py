@@ -59,6 +59,10 @@ class Mitsuba:
             "type": "path", "max_depth": DEPTH, "rr_depth": ROULETTE}}
         for number in range(len(box.kinds)):
             content[f"kind{number}"] = self.mesh(box, number)
+        for number, lamp in enumerate(getattr(box, "lamps", ())):
+            content[f"lamp{number}"] = {
+                "type": "point", "position": lamp.tolist(),
+                "intensity": {"type": "rgb", "value": [box.intensity] * 3}}
         self.scene = mi.load_dict(content)
         self.prepare(box)
         self.corners = [mi.Float(np.ascontiguousarray(box.corners[:, k, c], np.float32))
@@ -116,14 +120,15 @@ class Mitsuba:
             power *= dr.rcp(chance)
         return np.array(sums, dtype=float).reshape(-1, 3) / (count * box.area[:, None])
 
-    def trace_paths(self, box, each, seed):
-        """Irradiance of the cells by `each` paths from each (a square)."""
+    def trace_paths(self, chosen, each, seed):
+        """Irradiance of the cells `chosen` by `each` paths from each (a square)."""
         mi, dr = self.mi, self.dr
-        count = len(box) * each
+        count = len(chosen) * each
         sampler = mi.load_dict({"type": "multijitter", "sample_count": each})
         sampler.set_samples_per_wavefront(each)
         sampler.seed(seed, count)
-        cell = dr.arange(mi.UInt32, count) // each
+        number = dr.arange(mi.UInt32, count) // each
+        cell = dr.gather(mi.UInt32, mi.UInt32(chosen), number)
         get = [dr.gather(mi.Float, values, cell) for values in self.corners]
         a, b, c = (mi.Point3f(*get[3 * k:3 * k + 3]) for k in range(3))
         normal = mi.Normal3f(*[dr.gather(mi.Float, values, cell) for values in self.normals])
@@ -141,22 +146,26 @@ class Mitsuba:
         total += dr.pi * (color - met.emitter(self.scene).eval(met))
         # Float sums of a few hundred samples, summed on in double: no rounding is blamed on it.
         parts = -(-each // 256)
-        sums = dr.zeros(mi.Float, len(box) * parts * 3)
-        place = cell * parts + (dr.arange(mi.UInt32, count) - cell * each) // 256
+        sums = dr.zeros(mi.Float, len(chosen) * parts * 3)
+        place = number * parts + (dr.arange(mi.UInt32, count) - number * each) // 256
         for band in range(3):
             dr.scatter_reduce(dr.ReduceOp.Add, sums, total[band], place * 3 + band)
-        return np.array(sums, dtype=float).reshape(len(box), parts, 3).sum(1) / each
+        return np.array(sums, dtype=float).reshape(len(chosen), parts, 3).sum(1) / each
 
-    def estimate(self, box, amount, seed):
-        """`amount`: particles, or paths a cell; in passes that memory holds."""
+    def estimate(self, box, amount, seed, chosen=None):
+        """`amount`: particles, or paths a cell (`chosen`: of these cells alone); in passes that
+        memory holds."""
         if self.particles:
             passes = -(-amount // LARGEST)
             return sum(self.trace_particles(box, amount // passes, seed + k)
                        for k in range(passes)) / passes
+        chosen = np.arange(len(box)) if chosen is None else chosen
+        chosen = np.asarray(chosen, np.uint32)
         passes = 1
-        while len(box) * amount > passes * LARGEST:
+        while len(chosen) * amount > passes * LARGEST:
             passes *= 4
-        return sum(self.trace_paths(box, amount // passes, seed + k) for k in range(passes)) / passes
+        return sum(self.trace_paths(chosen, amount // passes, seed + k)
+                   for k in range(passes)) / passes
 
     def sweep(self, box, seconds):
         begin = self.clock()
