@@ -16,9 +16,7 @@
 #include "benchmarks/FurnishedScene.h"
 #include "benchmarks/Provenance.h"
 #include "radiometry/formfactor/DenseOperator.h"
-#if __has_include("radiometry/formfactor/HierarchicalOperator.h")
 #include "radiometry/formfactor/HierarchicalOperator.h"
-#endif
 #include "radiometry/formfactor/MonteCarloOperator.h"
 #include "radiometry/solver/RadiositySolver.h"
 
@@ -98,10 +96,8 @@ std::unique_ptr<FormFactorOperator> Build(char kind, const Scene& scene,
   {
     case 'D':
       return std::make_unique<DenseOperator>(scene, occluders, elements, options);
-#if __has_include("radiometry/formfactor/HierarchicalOperator.h")
     case 'H':
       return std::make_unique<HierarchicalOperator>(scene, occluders, elements, options);
-#endif
     default:
       return std::make_unique<MonteCarloOperator>(occluders, elements, options, Rays);
   }
