@@ -23,6 +23,7 @@ struct ExchangeOptions
   /// Where light goes on over mirrors and through panes (Monte Carlo alone); null: it ends at what it
   /// meets.
   std::shared_ptr<const SpecularSurfaces> Paths;
+  double SecondsLeft = 0.0; // for building; past them what remains is estimated coarsely. 0: no limit
   const Communicator* Ranks = nullptr; // that share rows; null: this process alone
 };
 

@@ -4,10 +4,12 @@
 #include "radiometry/formfactor/GroupedOperator.h"
 #include "radiometry/scene/InputError.h"
 #include "tests/core/TestScenes.h"
+#include "tests/core/ThreadRanks.h"
 
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <sstream>
 
 using namespace radiometry;
 
@@ -35,6 +37,57 @@ double Defect(const DenseOperator& f)
   for (std::size_t i = 0; i < f.Size(); ++i)
   {
     worst = std::max(worst, std::abs(1.0 - f.RowSum(i)));
+  }
+  return worst;
+}
+
+/// A room with a pillar and a screen.
+test::Mesh Furnished()
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 5, true);
+  mesh.AddBox({ 0.3, 0.3, 0.0 }, { 0.6, 0.7, 0.5 }, 2, false);
+  mesh.AddGrid({ 0.1, 0.1, 0.6 }, { 0.5, 0, 0 }, { 0, 0.5, 0.1 }, 3, 3);
+  return mesh;
+}
+
+struct Values
+{
+  std::vector<double> Rows, Out, Geometry, Visibility;
+  std::vector<std::int32_t> Components;
+  ClosureReport Closure;
+};
+
+/// What can be asked of an operator, for three bands.
+Values AllOf(const FormFactorOperator& f)
+{
+  Values v;
+  const std::size_t n = f.Size();
+  std::vector<double> B(3 * n);
+  for (std::size_t k = 0; k < B.size(); ++k)
+  {
+    B[k] = 1.0 + std::sin(static_cast<double>(k));
+  }
+  v.Out.resize(3 * n);
+  v.Geometry.resize(3 * n);
+  v.Visibility.resize(3 * n);
+  f.Apply(B.data(), v.Out.data(), 3);
+  f.ApplyError(B.data(), v.Geometry.data(), v.Visibility.data(), 3);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    v.Rows.push_back(f.RowSum(i));
+  }
+  v.Components = f.Components();
+  v.Closure = f.Closure();
+  return v;
+}
+
+double Furthest(const std::vector<double>& a, const std::vector<double>& b)
+{
+  double worst = a.size() == b.size() ? 0.0 : 1e300;
+  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+  {
+    worst = std::max(worst, std::abs(a[k] - b[k]) / std::max(1e-3, std::abs(b[k])));
   }
   return worst;
 }
@@ -289,6 +342,105 @@ TEST(DenseOperator, MemoryLimitSaysWhatWouldDo)
     const Built enough(mesh, options);
     EXPECT_LE(enough.F.MemoryBytes(), options.MemoryLimit);
     EXPECT_LT(Defect(enough.F), 1e-14); // single precision conserves all the same
+  }
+}
+
+TEST(DenseOperator, RanksGiveTheSerialValues)
+{
+  const Scene scene = Furnished().ToScene();
+  const OcclusionScene occluders(scene);
+  const ElementSet elements(scene, true);
+  ExchangeOptions options;
+  options.RelativeTolerance = 0.02;
+  const DenseOperator serial(scene, occluders, elements, options);
+  const Values expected = AllOf(serial);
+  for (int size : { 2, 3 })
+  {
+    std::vector<std::size_t> memory(static_cast<std::size_t>(size));
+    test::ThreadRanks(size).Run([&](const Communicator& ranks) {
+      ExchangeOptions own = options;
+      own.Ranks = &ranks;
+      own.Threads = 2;
+      const DenseOperator part(scene, occluders, elements, own);
+      const Values values = AllOf(part);
+      EXPECT_LT(Furthest(values.Out, expected.Out), 1e-12);
+      EXPECT_LT(Furthest(values.Geometry, expected.Geometry), 1e-12);
+      EXPECT_LT(Furthest(values.Visibility, expected.Visibility), 1e-12);
+      EXPECT_LT(Furthest(values.Rows, expected.Rows), 1e-12);
+      EXPECT_EQ(values.Components, expected.Components);
+      EXPECT_EQ(values.Closure.ClosedRows, expected.Closure.ClosedRows);
+      EXPECT_EQ(part.Samples(), serial.Samples());
+      memory[static_cast<std::size_t>(ranks.Rank())] = part.MemoryBytes();
+    });
+    // Each keeps its share of the tiles.
+    for (const std::size_t bytes : memory)
+    {
+      EXPECT_LT(static_cast<double>(bytes), 1.35 / size * static_cast<double>(serial.MemoryBytes()));
+    }
+  }
+}
+
+TEST(DenseOperator, IsSavedAndLoaded)
+{
+  const Built b(Furnished());
+  std::stringstream stream;
+  ArchiveWriter out(stream);
+  b.F.Save(out);
+  const std::string bytes = stream.str();
+  ArchiveReader in(stream, bytes.size());
+  const auto loaded = DenseOperator::Load(in);
+  EXPECT_EQ(in.Checksum(), out.Checksum());
+  const Values was = AllOf(b.F), is = AllOf(*loaded);
+  EXPECT_EQ(was.Out, is.Out);
+  EXPECT_EQ(was.Geometry, is.Geometry);
+  EXPECT_EQ(was.Visibility, is.Visibility);
+  EXPECT_EQ(was.Rows, is.Rows);
+  EXPECT_EQ(was.Components, is.Components);
+  EXPECT_EQ(b.F.Description(), loaded->Description());
+  EXPECT_EQ(b.F.MemoryBytes(), loaded->MemoryBytes());
+  for (std::size_t length : { std::size_t(0), std::size_t(9), bytes.size() / 2, bytes.size() - 1 })
+  {
+    std::stringstream cut(bytes.substr(0, length));
+    ArchiveReader reader(cut, length);
+    EXPECT_THROW(DenseOperator::Load(reader), std::runtime_error) << length;
+  }
+}
+
+TEST(DenseOperator, PastTheDeadlineItIsCoarseAndSaysSo)
+{
+  const test::Mesh mesh = Furnished();
+  ExchangeOptions options;
+  options.RelativeTolerance = 3e-3;
+  const Built fine(mesh, options);
+  options.RelativeTolerance = 0.01;
+  options.SecondsLeft = 1e-6;
+  const Built coarse(mesh, options);
+  EXPECT_LT(coarse.F.Samples(), fine.F.Samples() / 4);
+  const std::size_t n = fine.F.Size();
+  // A lit ceiling: what arrives elsewhere.
+  std::vector<double> source(n, 0.0), exact(n), rough(n), geometry(n), visibility(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    source[i] = Centroid(fine.Elements.GetPatches()[i].Corners).z > 0.499 ? 1.0 : 0.0;
+  }
+  fine.F.Apply(source.data(), exact.data(), 1);
+  coarse.F.Apply(source.data(), rough.data(), 1);
+  coarse.F.ApplyError(source.data(), geometry.data(), visibility.data(), 1);
+  std::size_t inside = 0, lit = 0;
+  double stated = 0.0, true2 = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double off = std::abs(rough[i] - exact[i]);
+    ++lit;
+    inside += off <= geometry[i] + 2.0 * visibility[i] + 1e-3;
+    stated += geometry[i] + 2.0 * visibility[i];
+    true2 += off;
+  }
+  EXPECT_GE(static_cast<double>(inside), 0.95 * static_cast<double>(lit));
+  EXPECT_LT(stated, 30.0 * true2);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    EXPECT_LE(coarse.F.RowSum(i), 1.0 + 1e-12);
   }
 }
 
