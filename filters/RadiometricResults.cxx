@@ -229,8 +229,17 @@ void RadiometricResults::WriteConvergence(const Result& result, vtkTable* table)
   auto* absolute = AddColumn<vtkDoubleArray>(table, "AbsoluteError");
   auto* samples = AddColumn<vtkIdTypeArray>(table, "Samples");
   auto* stage = AddColumn<vtkStringArray>(table, "Stage");
+  std::vector<vtkDoubleArray*> parts;
+  for (const std::string& name : result.Convergence.PartNames)
+  {
+    parts.push_back(AddColumn<vtkDoubleArray>(table, (name + names::ErrorSuffix).c_str()));
+  }
   for (const auto& row : result.Convergence.Rows)
   {
+    for (std::size_t k = 0; k < parts.size(); ++k)
+    {
+      parts[k]->InsertNextValue(k < row.Parts.size() ? row.Parts[k] : 0.0);
+    }
     seconds->InsertNextValue(row.Seconds);
     relative->InsertNextValue(row.RelativeError);
     absolute->InsertNextValue(row.AbsoluteError);

@@ -199,7 +199,9 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
   result.Closure = level.F ? level.F->Closure() : ClosureReport{};
   const double perValue = totalArea * static_cast<double>(nb);
   result.Convergence.Add(stage, totalValue > 0.0 ? totalError / totalValue : 0.0,
-    perValue > 0.0 ? totalError / perValue : 0.0, result.Samples);
+    perValue > 0.0 ? totalError / perValue : 0.0, result.Samples,
+    { result.Budget.Direct, result.Budget.FormFactors, result.Budget.Visibility,
+      result.Budget.Discretisation, result.Budget.Solver });
   result.Excess = count > 0.0 ? excess / count : 0.0;
   result.MetShare = totalArea > 0.0 ? std::min(met / totalArea, countMet / count) : 1.0;
   return result.MetShare >= 0.95;

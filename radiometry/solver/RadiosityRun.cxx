@@ -24,6 +24,8 @@ RadiosityRun::RadiosityRun(const Scene& scene, const OcclusionScene& occluders,
   : Context{ scene, occluders, options }
   , Cache(cache)
 {
+  this->Result.Convergence.PartNames = { "Direct", "FormFactor", "Visibility", "Discretisation",
+    "Solver" };
   this->Context.Bands = static_cast<std::size_t>(scene.Optics.Bands);
   this->Context.Memory = options.MemoryLimit ? options.MemoryLimit : DefaultMemory;
   this->Context.Convex = cache ? cache->Convex() : FindConvexity(scene) != Convexity::General;
