@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace radiometry
 {
@@ -16,6 +17,9 @@ class SpecularSurfaces;
 struct ExchangeOptions
 {
   double RelativeTolerance = 0.01; // wanted of a row's irradiance
+  /// Of each element, a factor of at most 1 on RelativeTolerance for its row; null: 1. What is not
+  /// wanted so fine may be coarser. Operators may leave it out of account.
+  const std::vector<float>* RowTolerance = nullptr;
   bool Occlusion = true;
   std::size_t MemoryLimit = 0; // bytes; 0: none
   int Threads = 0;             // 0: all

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/DenseOperator.h"
+#include "radiometry/formfactor/HierarchicalOperator.h"
 #include "radiometry/formfactor/MonteCarloOperator.h"
 #include "radiometry/solver/ElementOverlap.h"
 #include "radiometry/solver/RadiosityRun.h"
@@ -19,6 +20,8 @@ constexpr int MostRays = 16384;
 constexpr double FirstTolerance = 0.03;
 /// A part of the error counts as limiting above this share of the other.
 constexpr double Limiting = 0.3;
+/// The finest tolerance of links, as a share of that of the values.
+constexpr double FinestLinks = 0.05;
 
 } // namespace
 
@@ -73,6 +76,7 @@ std::unique_ptr<RadiosityLevel> RadiosityRun::Next(const RadiosityAdvance& advan
   std::unique_ptr<RadiosityLevel> level, const ElementSet& coarsest, const StageProgress& stage)
 {
   // The old operator makes room for the new one.
+  const std::int64_t samples = level->F ? level->F->Samples() : 0;
   level->Carlo = nullptr;
   level->F.reset();
   if (advance.OtherMethod)
@@ -100,7 +104,7 @@ std::unique_ptr<RadiosityLevel> RadiosityRun::Next(const RadiosityAdvance& advan
   next->Method = level->Method;
   next->TargetArea = advance.Area;
   next->Tolerance = advance.Tolerance;
-  next->Rays = level->Rays;
+  next->Rays = static_cast<int>(samples / static_cast<std::int64_t>(level->Elements.Size()));
   next->BeginFrom(*level, this->Context.Bands);
   if (!complete && dense && this->MayTurnToMany())
   {
@@ -129,6 +133,11 @@ void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& sta
     level.Carlo = carlo.get();
     level.F = std::move(carlo);
   }
+  else if (level.Method == RadiosityMethod::Hierarchical)
+  {
+    level.F = std::make_unique<HierarchicalOperator>(
+      this->Context.Geometry, this->Context.Occluders, level.Elements, exchange, stage);
+  }
   else
   {
     level.F = std::make_unique<DenseOperator>(
@@ -154,14 +163,8 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
   this->LastMet = this->Result.MetShare;
   this->LastExcess = this->Result.Excess;
   this->LastError = error;
-  if (stalled && this->DividedLast)
-  {
-    advance.Outcome = "finer elements no longer help";
-    return advance;
-  }
-  const bool finerExchange = !stalled && sampled > Limiting * budget.Discretisation &&
+  const bool finerExchange = !(stalled && level.Carlo) && sampled > Limiting * budget.Discretisation &&
     this->FinerExchange(level, unfinished, solveSeconds, advance);
-  this->DividedLast = false;
   if (!advance.Rays.empty() || !advance.Outcome.empty())
   {
     return advance;
@@ -171,11 +174,19 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
     elements && this->FinerElements(level, coarsest, unfinished, advance, ratio);
   if (finerExchange || finerElements)
   {
-    this->DividedLast = finerElements;
+    if (finerElements && level.Method != RadiosityMethod::Dense)
+    {
+      if (error > 0.93 * this->DividedError)
+      {
+        advance.Outcome = "finer elements no longer help";
+      }
+      this->DividedError = error;
+      this->LastError = std::numeric_limits<double>::infinity();
+    }
     const double power = level.Method == RadiosityMethod::Dense ? 2.0 : 1.0;
     const double predicted = 2.0 * solveSeconds * ratio +
       level.ExchangeSeconds * std::pow(ratio, power) * level.Tolerance / advance.Tolerance;
-    if (predicted > this->Left())
+    if (advance.Outcome.empty() && predicted > this->Left())
     {
       advance.Outcome = "the time budget does not allow a finer step";
     }
@@ -201,10 +212,18 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
 bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
   const std::vector<std::uint8_t>& unfinished, double solveSeconds, RadiosityAdvance& advance)
 {
-  if (!level.Carlo)
+  const double wanted = this->Context.Options.RelativeTolerance;
+  if (level.Method == RadiosityMethod::Dense)
   {
-    advance.Tolerance = std::max(this->Context.Options.RelativeTolerance, 0.3 * level.Tolerance);
+    advance.Tolerance = std::max(wanted, 0.3 * level.Tolerance);
     return advance.Tolerance < level.Tolerance;
+  }
+  if (level.Method == RadiosityMethod::Hierarchical)
+  {
+    // Links are made anew: by as much finer as 95 % of the cells lack.
+    const double step = std::clamp(0.8 / std::max(1.0, this->Result.Excess95), 0.2, 0.7);
+    advance.Tolerance = std::max(FinestLinks * wanted, step * level.Tolerance);
+    return advance.Tolerance < 0.9 * level.Tolerance;
   }
   // By neighbourhoods, for to ask each element by itself would end with those whose rays happen to
   // have missed what is bright.

@@ -107,6 +107,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
   meanValue = totalArea > 0.0 ? totalValue / (totalArea * static_cast<double>(nb)) : 0.0;
   double met = 0.0, count = 0.0, countMet = 0.0, excess = 0.0;
   std::array<std::vector<std::uint8_t>, 2> open;
+  Values excesses;
   for (std::size_t side = 0; side < (back ? 2 : 1); ++side)
   {
     const Sums& s = sums[side];
@@ -155,6 +156,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
         worst.Solver = std::max(worst.Solver, solver);
       }
       const bool fine = worstExcess <= 1.0;
+      excesses.push_back(worstExcess);
       excess += fine ? 0.0 : std::min(worstExcess, 10.0);
       met += fine ? a : 0.0;
       count += 1.0;
@@ -202,6 +204,12 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
     perValue > 0.0 ? totalError / perValue : 0.0, result.Samples,
     { result.Budget.Direct, result.Budget.FormFactors, result.Budget.Visibility,
       result.Budget.Discretisation, result.Budget.Solver });
+  if (!excesses.empty())
+  {
+    const auto at = excesses.begin() + static_cast<std::ptrdiff_t>(0.95 * (excesses.size() - 1));
+    std::nth_element(excesses.begin(), at, excesses.end());
+    result.Excess95 = *at;
+  }
   result.Excess = count > 0.0 ? excess / count : 0.0;
   result.MetShare = totalArea > 0.0 ? std::min(met / totalArea, countMet / count) : 1.0;
   return result.MetShare >= 0.95;

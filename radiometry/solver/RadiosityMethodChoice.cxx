@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/DenseOperator.h"
+#include "radiometry/formfactor/HierarchicalOperator.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/solver/RadiosityRun.h"
 
@@ -13,6 +14,7 @@ namespace
 {
 
 constexpr double MiB = 1024.0 * 1024.0;
+constexpr double PairSeconds = 4e-6;
 constexpr std::size_t MostRefined = 60000;
 /// Bytes a Monte Carlo operator takes for each element beside its rays, and the fewest rays.
 constexpr std::size_t CarloElement = 48;
@@ -73,24 +75,35 @@ std::size_t RadiosityRun::MostElements(RadiosityMethod method, std::size_t coars
 
 void RadiosityRun::CheckMemory(std::size_t elements) const
 {
-  const std::size_t dense = DenseOperator::LeastBytes(elements);
-  const std::size_t carlo = CarloBytes(elements, FewestRays);
-  const RadiosityMethod asked = this->Context.Options.Method;
-  std::size_t least = dense;
-  RadiosityMethod method = RadiosityMethod::Dense;
-  if (asked == RadiosityMethod::MonteCarlo ||
-    (asked == RadiosityMethod::Auto && this->Context.Options.Occlusion && carlo < dense))
+  const RadiosityOptions& options = this->Context.Options;
+  const auto bytes = [elements](RadiosityMethod method) {
+    switch (method)
+    {
+      case RadiosityMethod::Dense:
+        return DenseOperator::LeastBytes(elements);
+      case RadiosityMethod::Hierarchical:
+        return HierarchicalOperator::LeastBytes(elements);
+      default:
+        return CarloBytes(elements, FewestRays);
+    }
+  };
+  RadiosityMethod least = options.Method;
+  if (least == RadiosityMethod::Auto)
   {
-    least = carlo;
-    method = RadiosityMethod::MonteCarlo;
+    least = RadiosityMethod::MonteCarlo;
+    for (const auto method : { RadiosityMethod::Dense, RadiosityMethod::Hierarchical })
+    {
+      const bool possible = !options.FollowsPaths();
+      least = possible && (bytes(method) < bytes(least) || !options.Occlusion) ? method : least;
+    }
   }
-  if (least > this->Context.Memory)
+  if (bytes(least) > this->Context.Memory)
   {
     throw InputError("MemoryLimit", -1, static_cast<double>(this->Context.Memory) / MiB,
       "at least " +
-        std::to_string(static_cast<long long>(std::ceil(static_cast<double>(least) / MiB))) +
-        " MiB, the least that any method wants (" + MethodName(method) + ", " +
-        std::to_string(elements) + " elements)");
+        std::to_string(static_cast<long long>(std::ceil(static_cast<double>(bytes(least)) / MiB))) +
+        " MiB, " + (options.Method == RadiosityMethod::Auto ? "the least of all methods (" : "(") +
+        MethodName(least) + ", " + std::to_string(elements) + " elements)");
   }
 }
 
@@ -99,15 +112,10 @@ RadiosityMethod RadiosityRun::Choose(const ElementSet& elements)
   const std::size_t n = elements.Size();
   const RadiosityOptions& options = this->Context.Options;
   std::string& why = this->Result.MethodWhy;
-  if (options.Method == RadiosityMethod::Hierarchical)
-  {
-    throw InputError(
-      "Method", -1, "Hierarchical", "Auto, Dense or MonteCarlo: not available in this version");
-  }
   if (options.Method == RadiosityMethod::MonteCarlo && !options.Occlusion)
   {
     throw InputError("Method", -1, "MonteCarlo",
-      "Auto or Dense where Occlusion is off: rays cannot pass through what they meet");
+      "Auto, Dense or Hierarchical where Occlusion is off: rays cannot pass through what they meet");
   }
   this->CheckMemory(n);
   if (options.Method != RadiosityMethod::Auto)
@@ -115,40 +123,51 @@ RadiosityMethod RadiosityRun::Choose(const ElementSet& elements)
     why = std::string(MethodName(options.Method)) + " as asked";
     return options.Method;
   }
-  const std::string count = std::to_string(n) + " elements";
-  if (!options.Occlusion)
+  if (options.FollowsPaths())
   {
-    why = "Dense: occlusion is off, and rays cannot pass through what they meet";
-    return RadiosityMethod::Dense;
+    why = "MonteCarlo: its rays follow light over mirrors and through panes";
+    return RadiosityMethod::MonteCarlo;
   }
+  const std::string count = std::to_string(n) + " elements";
   const std::size_t limit = this->AutomaticLimit();
   const double wanted = std::clamp(10.0 / options.RelativeTolerance, 200.0, 2000.0);
   const std::size_t fine = options.Refinement == RefinementMode::Off
     ? n
     : elements.CountAtArea(this->Area / wanted);
+  std::string reason;
   if (n > limit || fine > limit + limit / 2)
   {
-    const RadiosityMethod method = this->ChooseForMany(n, why);
-    why = std::string(MethodName(method)) + ": " + count + " (" + std::to_string(fine) +
-      " when refined for the tolerance), more than the " + std::to_string(limit) +
-      " whose pairs would be worth their rays and memory" + why;
-    return method;
+    reason = count + " (" + std::to_string(fine) + " when refined for the tolerance), more than the " +
+      std::to_string(limit) + " whose pairs would be worth their cost";
   }
-  const double threads = options.Threads > 0 ? options.Threads : 2.0;
-  if (2e-6 * static_cast<double>(n) * static_cast<double>(n) / threads > 0.5 * this->Left())
+  else
   {
-    const RadiosityMethod method = this->ChooseForMany(n, why);
-    why = std::string(MethodName(method)) + ": all pairs of " + count +
-      " do not fit in the time budget" + why;
-    return method;
+    const double threads = options.Threads > 0 ? options.Threads : 2.0;
+    const double pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n);
+    if (PairSeconds * pairs / threads > 0.5 * this->Left())
+    {
+      reason = "all pairs of " + count + " do not fit in the time budget";
+    }
   }
-  why = "Dense: all pairs of " + count + " are few";
-  return RadiosityMethod::Dense;
+  if (reason.empty())
+  {
+    why = "Dense: all pairs of " + count + " are few";
+    return RadiosityMethod::Dense;
+  }
+  std::string more;
+  const RadiosityMethod method = this->ChooseForMany(n, more);
+  why = std::string(MethodName(method)) + ": " + reason + more;
+  return method;
 }
 
-RadiosityMethod RadiosityRun::ChooseForMany(std::size_t, std::string& why) const
+RadiosityMethod RadiosityRun::ChooseForMany(std::size_t n, std::string& why) const
 {
-  why.clear();
+  if (HierarchicalOperator::LeastBytes(n) <= this->Context.Memory || !this->Context.Options.Occlusion)
+  {
+    why = "; clusters of them exchange light over links";
+    return RadiosityMethod::Hierarchical;
+  }
+  why = "; rays from each of them fit in the memory limit, links between clusters do not";
   return RadiosityMethod::MonteCarlo;
 }
 

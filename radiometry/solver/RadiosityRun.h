@@ -108,7 +108,7 @@ struct RadiosityRun
   // Of the last steps: to see whether they helped.
   double LastMet = 0.0, LastExcess = std::numeric_limits<double>::infinity();
   double LastError = std::numeric_limits<double>::infinity();
-  bool DividedLast = false;
+  double DividedError = std::numeric_limits<double>::infinity(); // when elements were last divided
   int Solves = 0; // of the present level
 };
 

@@ -89,6 +89,7 @@ struct RadiosityResult
   int Iterations = 0;
   double MetShare = 0.0; // of the cells, and of their area, that meets the tolerance (the lesser)
   double Excess = 0.0;   // mean over the cells of error/tolerance (at most 10) where above 1
+  double Excess95 = 0.0; // 95 % of the cells have less
   std::int64_t Samples = 0; // pairs and rays of the operator
   std::size_t OperatorBytes = 0;
 };
