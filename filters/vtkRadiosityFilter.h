@@ -19,9 +19,9 @@ class RadiosityCache;
 ///           Field data RadiometryMethod: the operator used and why.
 ///           EffectPlan has five further rows with the parts of the error.
 ///   Model   B = M + rho E, E = E_lights + int F dB (diffuse)
-///   Cost    Dense O(n^2) pairs, MonteCarlo O(n) rays; n elements
+///   Cost    Dense O(n^2) pairs, Hierarchical O(n) links, MonteCarlo O(n) rays; n elements
 ///   Fails   as vtkIrradianceFilter; a lossless closed cavity with light (no solution); a memory
-///           limit too small for any method; Method Hierarchical (not in this version)
+///           limit too small for any method
 class VTKRADIOMETRYFILTERS_EXPORT vtkRadiosityFilter : public vtkRadiometricFilter
 {
 public:
@@ -40,8 +40,8 @@ public:
 
   ///@{
   /// How light is exchanged between elements: 0 Auto (default), 1 Dense (all pairs, for some
-  /// thousands of elements), 2 Hierarchical (not in this version), 3 MonteCarlo (rays, for any
-  /// number).
+  /// thousands of elements), 2 Hierarchical (links between clusters, for any number), 3 MonteCarlo
+  /// (rays, for any number; they follow light over mirrors and through panes).
   vtkSetClampMacro(Method, int, METHOD_AUTO, MONTE_CARLO);
   vtkGetMacro(Method, int);
   ///@}

@@ -315,6 +315,14 @@ void RadiosityLevel::Solve(
   {
     v *= coverage;
   }
+  // Of pairs it is a bound, of links a standard error.
+  if (this->Method == RadiosityMethod::Hierarchical)
+  {
+    for (double& v : this->FormFactorError)
+    {
+      v *= LinkCoverage;
+    }
+  }
 
   // Errors of direct light travel on as light does.
   Values carried(values), arrived(values);

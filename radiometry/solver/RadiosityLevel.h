@@ -36,6 +36,7 @@ struct RadiosityContext
 /// that end where the estimate happens to be low.
 inline constexpr double DenseCoverage = 2.0;
 inline constexpr double CarloCoverage = 2.7;
+inline constexpr double LinkCoverage = 2.2;
 
 /// One discretisation of the scene with all that was computed on it. Values: elements x bands.
 struct RadiosityLevel

@@ -15,6 +15,8 @@ namespace
 
 constexpr double MiB = 1024.0 * 1024.0;
 constexpr double PairSeconds = 4e-6;
+/// Elements from which links between clusters are preferred to rays.
+constexpr std::size_t FewestLinked = 10000;
 constexpr std::size_t MostRefined = 60000;
 /// Bytes a Monte Carlo operator takes for each element beside its rays, and the fewest rays.
 constexpr std::size_t CarloElement = 48;
@@ -162,12 +164,13 @@ RadiosityMethod RadiosityRun::Choose(const ElementSet& elements)
 
 RadiosityMethod RadiosityRun::ChooseForMany(std::size_t n, std::string& why) const
 {
-  if (HierarchicalOperator::LeastBytes(n) <= this->Context.Memory || !this->Context.Options.Occlusion)
+  const bool possible = HierarchicalOperator::LeastBytes(n) <= this->Context.Memory;
+  if (!this->Context.Options.Occlusion || (possible && n >= FewestLinked))
   {
     why = "; clusters of them exchange light over links";
     return RadiosityMethod::Hierarchical;
   }
-  why = "; rays from each of them fit in the memory limit, links between clusters do not";
+  why = possible ? "" : "; rays from each of them fit in the memory limit, links between clusters do not";
   return RadiosityMethod::MonteCarlo;
 }
 

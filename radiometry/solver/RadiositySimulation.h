@@ -103,10 +103,11 @@ struct RadiosityResult
 ///   Error    half-width that covers 95 % of values: direct light, exchange, visibility (twice its
 ///            standard error), discretisation (difference from the solve on elements merged by
 ///            fours), solver (bound)
-///   Method   Dense up to some 4000 elements, MonteCarlo above; refined from coarse to fine until
-///            the tolerance is met, every step a row of Convergence
+///   Method   Dense up to some thousand elements (4000 where nothing hides anything), Hierarchical
+///            above, MonteCarlo where paths over mirrors are to be followed; refined from coarse to
+///            fine until the tolerance is met, every step a row of Convergence
 ///   Fails    InputError for optics out of range, a lossless closed cavity with light, a memory
-///            limit too small for any method, Method Hierarchical (not in this version)
+///            limit too small for any method
 class RadiositySimulation
 {
 public:

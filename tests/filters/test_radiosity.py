@@ -184,7 +184,6 @@ def test_points_are_smooth_and_agree_with_cells():
 def test_bad_input_is_named():
     light = lamp((0.5, 0.5, 0.5), 1000)
     fails(radiosity(room(1, 2), light, DiffuseReflectance=1.0), "losed")
-    fails(radiosity(room(1, 2), light, Method=HIERARCHICAL), "Method", "Hierarchical")
     fails(radiosity(room(1, 8), light, MemoryLimit=0.01), "MemoryLimit", "MiB")
     fails(radiosity(with_array(room(1, 2), "DiffuseReflectance", math.nan), light),
           "DiffuseReflectance[0] = nan")
