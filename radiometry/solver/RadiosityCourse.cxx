@@ -258,6 +258,10 @@ bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
   {
     return false;
   }
+  // Errors fall with the root of the rays: far from the tolerance they are doubled more than once.
+  const double lack = std::min(this->Result.Excess95, 3.0);
+  advance.Doublings = std::max(1, static_cast<int>(std::log2(lack * lack)));
+  more *= (std::int64_t(1) << advance.Doublings) - 1;
   if (level.F->MemoryBytes() + static_cast<std::size_t>(more) * 4 > this->Context.Memory)
   {
     advance.Outcome = "the memory limit does not allow more rays";
@@ -306,7 +310,7 @@ bool RadiosityRun::FinerElements(const RadiosityLevel& level, const ElementSet& 
     level.Harmful(this->Context, unfinished, limit > n ? (limit - n) / 6 : 0);
   const auto more = std::count(marked.begin(), marked.end(), 1);
   ratio = 1.0 + 3.0 * static_cast<double>(more) / static_cast<double>(n);
-  if (ratio < 1.02)
+  if (more == 0)
   {
     return false;
   }

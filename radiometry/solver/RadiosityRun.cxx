@@ -111,9 +111,13 @@ void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage
     }
     if (!advance.Rays.empty())
     {
-      const StageProgress rays = part(0.0, 0.8, "rays");
-      level->ExchangeSeconds +=
-        this->Timed("rays", [&] { level->Carlo->DoubleRays(advance.Rays, rays); });
+      level->ExchangeSeconds += this->Timed("rays", [&] {
+        for (int k = 0; k < advance.Doublings; ++k)
+        {
+          level->Carlo->DoubleRays(advance.Rays,
+            part(0.8 * k / advance.Doublings, 0.8 * (k + 1) / advance.Doublings, "rays"));
+        }
+      });
       continue;
     }
     level = this->Next(advance, std::move(level), coarsest, part(0.0, 0.2, "direct light"));

@@ -22,6 +22,7 @@ struct RadiosityAdvance
   double Tolerance = 0.0;            // of a new operator
   double Area = 0.0;                 // that no element of the next level exceeds, m^2
   std::vector<std::uint8_t> Rays;    // elements whose rays are doubled, on the same level
+  int Doublings = 1;                 // so often
   std::vector<std::uint8_t> Divided; // elements to divide; empty: by area alone
   bool OtherMethod = false;          // the next level's is one for many elements
 };
