@@ -504,7 +504,7 @@ TEST(RadiositySimulation, FacesInOneAnotherMakeNoLight)
   }
   Scene scene = mesh.ToScene(0.99);
   scene.Lights.push_back(PointLight(scene, { 0.4, 0.5, 0.6 }, 1.0));
-  for (const RadiosityMethod method : 
+  for (const RadiosityMethod method :
          { RadiosityMethod::Dense, RadiosityMethod::Hierarchical, RadiosityMethod::MonteCarlo })
   {
     RadiosityOptions options;
