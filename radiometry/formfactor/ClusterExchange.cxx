@@ -16,6 +16,10 @@ struct Rule
   Vec3 Normal[Most];
   double Weight[Most]; // sums to 1
   int N = 0;
+  // Places in between, at which what the rule itself cannot see of the second degree shows.
+  Vec3 Between[3];
+  Vec3 BetweenNormal[3];
+  int Tests = 0;
 
   Rule(const ElementTree& tree, const ElementSet& elements, std::int32_t at)
   {
@@ -26,14 +30,20 @@ struct Rule
       if (!node.Leaf())
       {
         this->AddElement(tree, elements, node.Second, node.Area);
+        this->AddTest(tree[at + 1], node, 1.0);
+        this->AddTest(tree[node.Second], node, 1.0);
       }
       return;
     }
+    this->Between[0] = node.Center;
+    this->BetweenNormal[0] = node.Normal;
+    this->Tests = 1;
     // Parts of the same shape, half as large, hold 3/4 of the second moment between them.
     constexpr double outward = 1.1547005383792515;
     for (const std::int32_t child : { at + 1, node.Second })
     {
       const ElementTree::Node& c = tree[child];
+      this->AddTest(c, node, c.Leaf() ? 1.0 : 1.6);
       if (c.Leaf())
       {
         this->Add(c, node, outward);
@@ -50,6 +60,11 @@ struct Rule
     this->Normal[this->N] = part.Normal;
     this->Weight[this->N++] = part.Area / whole.Area;
   }
+  void AddTest(const ElementTree::Node& part, const ElementTree::Node& whole, double outward)
+  {
+    this->Between[this->Tests] = whole.Center + outward * (part.Center - whole.Center);
+    this->BetweenNormal[this->Tests++] = part.Normal;
+  }
   /// The rule of the second degree.
   void AddElement(
     const ElementTree& tree, const ElementSet& elements, std::int32_t leaf, double whole)
@@ -65,6 +80,32 @@ struct Rule
   }
 };
 
+double Kernel(const Vec3& x, const Vec3& n, const Vec3& y, const Vec3& m)
+{
+  const Vec3 r = y - x;
+  const double r2 = LengthSquared(r);
+  return std::max(0.0, Dot(n, r)) * std::max(0.0, -Dot(m, r)) / (r2 * r2);
+}
+
+/// Mean square of what the linear model misses of what arrives at the places in between.
+double MissedBetween(const Rule& at, const Vec3& center, const Vec3& slope, const Rule& from,
+  double mean)
+{
+  double sum = 0.0;
+  for (int t = 0; t < at.Tests; ++t)
+  {
+    double k = 0.0;
+    for (int j = 0; j < from.N; ++j)
+    {
+      k += from.Weight[j] *
+        Kernel(at.Between[t], at.BetweenNormal[t], from.Place[j], from.Normal[j]);
+    }
+    const double miss = k / mean - 1.0 - Dot(slope, at.Between[t] - center);
+    sum += miss * miss;
+  }
+  return at.Tests > 0 ? sum / at.Tests : 0.0;
+}
+
 } // namespace
 
 ClusterEstimate EstimateExchange(
@@ -77,9 +118,7 @@ ClusterEstimate EstimateExchange(
   {
     for (int j = 0; j < q.N; ++j)
     {
-      const Vec3 r = q.Place[j] - p.Place[i];
-      const double r2 = LengthSquared(r);
-      k[i][j] = std::max(0.0, Dot(p.Normal[i], r)) * std::max(0.0, -Dot(q.Normal[j], r)) / (r2 * r2);
+      k[i][j] = Kernel(p.Place[i], p.Normal[i], q.Place[j], q.Normal[j]);
       mean += p.Weight[i] * q.Weight[j] * k[i][j];
     }
   }
@@ -109,7 +148,6 @@ ClusterEstimate EstimateExchange(
       all += p.Weight[i] * q.Weight[j] * miss * miss;
     }
   }
-  constexpr double share = 0.1; // of the mean square that a source's own unevenness brings out
   double meanA = 0.0, meanB = 0.0;
   for (int i = 0; i < p.N; ++i)
   {
@@ -119,8 +157,12 @@ ClusterEstimate EstimateExchange(
   {
     meanB += q.Weight[j] * missB[j] * missB[j];
   }
-  out.SpreadA = std::sqrt(meanA + share * all);
-  out.SpreadB = std::sqrt(meanB + share * all);
+  const Vec3 slope = out.Slope * model.Slope;
+  meanA = (na.Leaf() ? 0.0 : meanA) + MissedBetween(p, na.Center, slope, q, mean);
+  meanB = (nb.Leaf() ? 0.0 : meanB) + MissedBetween(q, nb.Center, -slope, p, mean);
+  out.SpreadA = std::sqrt(meanA);
+  out.SpreadB = std::sqrt(meanB);
+  out.Both = std::sqrt(all);
   return out;
 }
 

@@ -51,8 +51,10 @@ struct ClusterEstimate
 {
   double Exchange = 0.0; // S = int int k, m^2
   double Slope = 0.0;    // t of ExchangeSlope: 1, or less where the exchange would become negative
-  double SpreadA = 0.0;  // root mean square over a of the rule's points from the linear model,
-  double SpreadB = 0.0;  // relative to the mean; over b
+  // Root mean square of what the linear model misses, relative to the mean:
+  double SpreadA = 0.0; // of means over b, at places of a
+  double SpreadB = 0.0; // of means over a, at places of b
+  double Both = 0.0;    // of pairs of points of the rule
 };
 
 /// A rule of 3 to 6 points a cluster: an element's inner points, a cluster's grandchildren moved

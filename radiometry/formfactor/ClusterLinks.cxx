@@ -15,6 +15,17 @@ namespace
 
 constexpr double Pi = 3.14159265358979323846;
 constexpr double FarEnough = 0.7; // sum of radii over distance at which a rule is asked
+// Shares of the tolerance that one link may miss of a row. Some hundred links make a row; their
+// errors add by squares.
+constexpr double FormShare = 0.02;
+constexpr double SightShare = 0.1;
+// What of the unevenness of the kernel over the far elements shows in a row, root mean square.
+constexpr double FarShare = 0.5;
+
+std::uint64_t KeyOf(NodePair pair)
+{
+  return (static_cast<std::uint64_t>(pair.first) << 32) | static_cast<std::uint64_t>(pair.second);
+}
 
 /// What k rays that all agree may have missed, mean square, for visible shares uniform in (0, 1).
 double Unnoticed(double k)
@@ -30,32 +41,36 @@ ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elemen
   , Elements(elements)
   , Occluders(occluders)
   , Tolerance(std::clamp(options.RelativeTolerance, 1e-7, 0.5) * loosened)
-  , FormAllowance(0.02 * Tolerance)
-  , SightAllowance(0.1 * Tolerance)
+  , FormAllowance(FormShare * Tolerance)
+  , SightAllowance(SightShare * Tolerance)
   , Seed(options.Seed)
   , Occlusion(occlusion)
 {
   this->Shapes.reserve(elements.Size());
+  this->Triangles.reserve(elements.Size());
   for (const std::int32_t item : tree.Order())
   {
-    this->Shapes.emplace_back(elements.GetPatches()[static_cast<std::size_t>(item)].Corners);
+    const Patch& patch = elements.GetPatches()[static_cast<std::size_t>(item)];
+    this->Shapes.emplace_back(patch.Corners);
+    this->Triangles.push_back(patch.Triangle);
   }
 }
 
 bool ClusterRefiner::Refine(
   NodePair pair, std::size_t most, std::vector<ClusterLink>& links, Tally& tally) const
 {
-  std::vector<NodePair> open{ pair };
-  while (!open.empty())
+  Work work;
+  work.Stack.push_back({ pair });
+  while (!work.Stack.empty())
   {
-    const NodePair next = open.back();
-    open.pop_back();
-    this->Step(next, links, open, tally);
+    this->Step(work, links);
     if (links.size() > most)
     {
       return false;
     }
   }
+  tally.Pairs += work.Count.Pairs;
+  tally.Rays += work.Count.Rays;
   return true;
 }
 
@@ -68,39 +83,66 @@ std::vector<NodePair> ClusterRefiner::Tasks(
     next.clear();
     for (const NodePair& pair : tasks)
     {
-      this->Step(pair, links, next, tally);
+      Work work;
+      work.Stack.push_back({ pair });
+      this->Step(work, links);
+      for (const Open& open : work.Stack)
+      {
+        next.push_back(open.Pair);
+      }
+      tally.Pairs += work.Count.Pairs;
+      tally.Rays += work.Count.Rays;
     }
     tasks.swap(next);
   }
   return tasks;
 }
 
-void ClusterRefiner::Divide(NodePair pair, std::vector<NodePair>& more) const
+void ClusterRefiner::Divide(const Open& open, Work& work) const
 {
-  const ElementTree::Node& a = this->Tree[pair.first];
-  const ElementTree::Node& b = this->Tree[pair.second];
+  const ElementTree::Node& a = this->Tree[open.Pair.first];
+  const ElementTree::Node& b = this->Tree[open.Pair.second];
   const bool first = b.Leaf() || (!a.Leaf() && a.Radius >= b.Radius);
-  const std::int32_t whole = first ? pair.first : pair.second;
-  const std::int32_t other = first ? pair.second : pair.first;
+  const std::int32_t whole = first ? open.Pair.first : open.Pair.second;
+  const std::int32_t other = first ? open.Pair.second : open.Pair.first;
+  const std::int32_t middle = this->Tree[this->Tree[whole].Second].First;
   for (const std::int32_t child : { whole + 1, this->Tree[whole].Second })
   {
-    more.emplace_back(std::min(child, other), std::max(child, other));
+    Open part{ { std::min(child, other), std::max(child, other) }, 0, open.Mixed };
+    const bool swapped = (child < other) != first;
+    for (const Sample& sample : work.Own)
+    {
+      const std::int32_t at = first ? sample.I : sample.J;
+      if ((at < middle) == (child == whole + 1))
+      {
+        work.Samples.push_back(sample);
+        if (swapped)
+        {
+          std::swap(work.Samples.back().I, work.Samples.back().J);
+        }
+        ++part.Samples;
+      }
+    }
+    work.Stack.push_back(part);
   }
 }
 
-void ClusterRefiner::Step(NodePair pair, std::vector<ClusterLink>& links,
-  std::vector<NodePair>& more, Tally& tally) const
+void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
 {
-  const auto [ia, ib] = pair;
+  Open open = work.Stack.back();
+  work.Stack.pop_back();
+  work.Own.assign(work.Samples.end() - open.Samples, work.Samples.end());
+  work.Samples.resize(work.Samples.size() - static_cast<std::size_t>(open.Samples));
+  const auto [ia, ib] = open.Pair;
   const ElementTree::Node& a = this->Tree[ia];
   const ElementTree::Node& b = this->Tree[ib];
   if (ia == ib)
   {
     if (!a.Leaf())
     {
-      more.emplace_back(ia + 1, ia + 1);
-      more.emplace_back(a.Second, a.Second);
-      more.emplace_back(ia + 1, a.Second);
+      work.Stack.push_back({ { ia + 1, ia + 1 } });
+      work.Stack.push_back({ { a.Second, a.Second } });
+      work.Stack.push_back({ { ia + 1, a.Second } });
     }
     return;
   }
@@ -110,17 +152,17 @@ void ClusterRefiner::Step(NodePair pair, std::vector<ClusterLink>& links,
   }
   if (a.Leaf() && b.Leaf())
   {
-    this->LinkElements(pair, links, tally);
+    this->LinkElements(open, work, links);
     return;
   }
   const double distance = Length(b.Center - a.Center);
-  const bool tooBig = std::max(a.Leaf() ? a.Radius : 0.0, b.Leaf() ? b.Radius : 0.0) > 0.4 * distance;
-  if (tooBig || a.Radius + b.Radius > FarEnough * distance)
+  const double largestLeaf = std::max(a.Leaf() ? a.Radius : 0.0, b.Leaf() ? b.Radius : 0.0);
+  if (largestLeaf > 0.4 * distance || a.Radius + b.Radius > FarEnough * distance)
   {
-    this->Divide(pair, more);
+    this->Divide(open, work);
     return;
   }
-  ++tally.Pairs;
+  ++work.Count.Pairs;
   const ClusterEstimate estimate = EstimateExchange(this->Tree, this->Elements, ia, ib);
   const double inA = estimate.Exchange / a.Area;
   const double inB = estimate.Exchange / b.Area;
@@ -131,23 +173,27 @@ void ClusterRefiner::Step(NodePair pair, std::vector<ClusterLink>& links,
     const double most = std::max(a.Area, b.Area) / (Pi * away * away);
     if (most * FarEnough > this->FormAllowance)
     {
-      this->Divide(pair, more);
+      this->Divide(open, work);
     }
     return;
   }
-  if (std::max(inA * estimate.SpreadA, inB * estimate.SpreadB) > this->FormAllowance)
+  const double far = FarShare * estimate.Both;
+  if (std::max(inA * std::hypot(estimate.SpreadA, FarShare * estimate.SpreadB, far),
+        inB * std::hypot(estimate.SpreadB, FarShare * estimate.SpreadA, far)) >
+    this->FormAllowance)
   {
-    this->Divide(pair, more);
+    this->Divide(open, work);
     return;
   }
   Sight sight;
   if (this->Occlusion)
   {
     const double factor = std::max(inA, inB);
-    sight = this->Look(pair, factor, tally);
+    sight = this->Look(open, factor, work);
     if (factor * sight.Spread > this->SightAllowance)
     {
-      this->Divide(pair, more);
+      open.Mixed = true;
+      this->Divide(open, work);
       return;
     }
     if (sight.Fraction == 0.0)
@@ -161,58 +207,67 @@ void ClusterRefiner::Step(NodePair pair, std::vector<ClusterLink>& links,
   link.Kernel = static_cast<float>(
     sight.Fraction * estimate.Exchange / a.Area * (this->Tree[0].Area / b.Area));
   link.Slope = static_cast<float>(estimate.Slope);
-  link.FormA = static_cast<float>(inA * sight.Fraction * estimate.SpreadA);
-  link.FormB = static_cast<float>(inB * sight.Fraction * estimate.SpreadB);
-  link.SightA = static_cast<float>(inA * std::hypot(sight.Spread, sight.Error));
-  link.SightB = static_cast<float>(inB * std::hypot(sight.Spread, sight.Error));
+  link.FormA = static_cast<float>(sight.Fraction * std::hypot(estimate.SpreadA, far));
+  link.FormB = static_cast<float>(sight.Fraction * std::hypot(estimate.SpreadB, far));
+  link.Sight = static_cast<float>(std::hypot(sight.Spread, sight.Error));
+  link.Factor = static_cast<float>(inA);
   links.push_back(link);
 }
 
-ClusterRefiner::Sight ClusterRefiner::Look(NodePair pair, double factor, Tally& tally) const
+ClusterRefiner::Sample ClusterRefiner::Cast(
+  NodePair pair, const std::array<double, 4>& u) const
 {
-  const ElementTree::Node& a = this->Tree[pair.first];
-  const ElementTree::Node& b = this->Tree[pair.second];
+  const auto pick = [&](std::int32_t at, double s, double t, std::int32_t& place) {
+    const ElementTree::Node& node = this->Tree[at];
+    const double where = s * node.Count;
+    const auto k = std::min(static_cast<std::int32_t>(where), node.Count - 1);
+    place = node.First + k;
+    return TrianglePoint(this->Shapes[static_cast<std::size_t>(place)].Corners, where - k, t);
+  };
+  Sample sample;
+  const Vec3 x = pick(pair.first, u[0], u[1], sample.I);
+  const Vec3 y = pick(pair.second, u[2], u[3], sample.J);
+  const auto i = static_cast<std::size_t>(sample.I), j = static_cast<std::size_t>(sample.J);
+  const ExchangePatch& p = this->Shapes[i];
+  const ExchangePatch& q = this->Shapes[j];
+  const Vec3 r = y - x;
+  const double r2 = LengthSquared(r);
+  const double kernel =
+    std::max(0.0, Dot(p.Normal, r)) * std::max(0.0, -Dot(q.Normal, r)) / (r2 * r2);
+  sample.Weight = static_cast<float>(kernel * p.Area * (q.Area / this->Tree[0].Area));
+  sample.Visible = sample.Weight > 0.0f &&
+    !this->Occluders.Occluded({ x, this->Triangles[i] }, { y, this->Triangles[j] });
+  return sample;
+}
+
+ClusterRefiner::Sight ClusterRefiner::Look(const Open& open, double factor, Work& work) const
+{
   const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
-  const int rays = static_cast<int>(std::clamp(std::ceil(0.125 / (wanted * wanted)), 4.0, 64.0));
-  const SobolSequence sequence(Hash64(this->Seed,
-    (static_cast<std::uint64_t>(pair.first) << 32) | static_cast<std::uint64_t>(pair.second)));
+  const int rays = static_cast<int>(
+    std::clamp(std::ceil(0.125 / (wanted * wanted)), open.Mixed ? 6.0 : 4.0, 64.0));
   double all = 0.0, seen = 0.0;
   int cast = 0, visible = 0;
-  const auto pick = [&](const ElementTree::Node& node, double u, double v, std::int32_t& place) {
-    const double at = u * node.Count;
-    const auto k = std::min(static_cast<std::int32_t>(at), node.Count - 1);
-    place = node.First + k;
-    return TrianglePoint(this->Shapes[static_cast<std::size_t>(place)].Corners, at - k, v);
+  const auto count = [&](const Sample& sample) {
+    ++cast;
+    all += static_cast<double>(sample.Weight);
+    seen += sample.Visible ? static_cast<double>(sample.Weight) : 0.0;
+    visible += sample.Visible;
   };
+  for (const Sample& sample : work.Own)
+  {
+    count(sample);
+  }
+  const SobolSequence sequence(Hash64(this->Seed, KeyOf(open.Pair)));
   for (int k = 0; k < 4 * rays && cast < rays; ++k)
   {
-    const auto u = sequence(static_cast<std::uint32_t>(k));
-    std::int32_t i = 0, j = 0;
-    const Vec3 x = pick(a, u[0], u[1], i);
-    const Vec3 y = pick(b, u[2], u[3], j);
-    const ExchangePatch& p = this->Shapes[static_cast<std::size_t>(i)];
-    const ExchangePatch& q = this->Shapes[static_cast<std::size_t>(j)];
-    const Vec3 r = y - x;
-    const double r2 = LengthSquared(r);
-    const double kernel = std::max(0.0, Dot(p.Normal, r)) * std::max(0.0, -Dot(q.Normal, r)) /
-      (r2 * r2) * p.Area * q.Area;
-    if (!(kernel > 0.0))
+    const Sample sample = this->Cast(open.Pair, sequence(static_cast<std::uint32_t>(k)));
+    if (sample.Weight > 0.0f)
     {
-      continue;
-    }
-    ++cast;
-    all += kernel;
-    const auto triangle = [&](std::int32_t place) {
-      const auto item = this->Tree.Order()[static_cast<std::size_t>(place)];
-      return this->Elements.GetPatches()[static_cast<std::size_t>(item)].Triangle;
-    };
-    if (!this->Occluders.Occluded({ x, triangle(i) }, { y, triangle(j) }))
-    {
-      seen += kernel;
-      ++visible;
+      ++work.Count.Rays;
+      work.Own.push_back(sample);
+      count(sample);
     }
   }
-  tally.Rays += cast;
   Sight sight;
   if (cast == 0)
   {
@@ -227,31 +282,27 @@ ClusterRefiner::Sight ClusterRefiner::Look(NodePair pair, double factor, Tally& 
     sight.Spread = std::sqrt(share * (1.0 - share));
     sight.Error = sight.Spread / std::sqrt(static_cast<double>(cast));
   }
-  else
+  else if (open.Mixed)
   {
-    sight.Error = 0.0 * Unnoticed(cast);
+    sight.Error = std::sqrt(Unnoticed(cast));
   }
   return sight;
 }
 
 void ClusterRefiner::LinkElements(
-  NodePair pair, std::vector<ClusterLink>& links, Tally& tally) const
+  const Open& open, Work& work, std::vector<ClusterLink>& links) const
 {
-  const ElementTree::Node& a = this->Tree[pair.first];
-  const ElementTree::Node& b = this->Tree[pair.second];
-  const auto patch = [&](const ElementTree::Node& leaf) -> const Patch& {
-    const auto item = this->Tree.Order()[static_cast<std::size_t>(leaf.First)];
-    return this->Elements.GetPatches()[static_cast<std::size_t>(item)];
-  };
-  const Patch& p = patch(a);
-  const Patch& q = patch(b);
-  if (p.Triangle == q.Triangle)
+  const ElementTree::Node& a = this->Tree[open.Pair.first];
+  const ElementTree::Node& b = this->Tree[open.Pair.second];
+  const std::int32_t p = this->Triangles[static_cast<std::size_t>(a.First)];
+  const std::int32_t q = this->Triangles[static_cast<std::size_t>(b.First)];
+  if (p == q)
   {
     return; // one plane
   }
   const ExchangePatch& i = this->Shapes[static_cast<std::size_t>(a.First)];
   const ExchangePatch& j = this->Shapes[static_cast<std::size_t>(b.First)];
-  ++tally.Pairs;
+  ++work.Count.Pairs;
   const double d2 = LengthSquared(i.Center - j.Center);
   const double rough = std::min(1.0, std::max(i.Area, j.Area) / (Pi * d2));
   const PairExchangeResult exchange =
@@ -261,32 +312,29 @@ void ClusterRefiner::LinkElements(
     return;
   }
   PairVisibilityResult seen;
-  const double factor = exchange.Value / std::min(i.Area, j.Area);
   if (this->Occlusion)
   {
+    const double factor = exchange.Value / std::min(i.Area, j.Area);
     const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
-    const double rays = std::clamp(0.125 / (wanted * wanted), 4.0, 64.0);
+    const double rays = std::clamp(0.125 / (wanted * wanted), open.Mixed ? 8.0 : 4.0, 64.0);
     const int first = static_cast<int>(std::exp2(std::ceil(std::log2(rays))));
-    const std::uint64_t key = Hash64(this->Seed,
-      (static_cast<std::uint64_t>(pair.first) << 32) | static_cast<std::uint64_t>(pair.second));
-    seen = PairVisibility(
-      this->Occluders, i, p.Triangle, j, q.Triangle, key, first, 4096, wanted);
-    tally.Rays += seen.Rays;
+    seen = PairVisibility(this->Occluders, i, p, j, q, Hash64(this->Seed, KeyOf(open.Pair)), first,
+      4096, wanted);
+    work.Count.Rays += seen.Rays;
     if (seen.Fraction == 0.0)
     {
       return;
     }
   }
   ClusterLink link;
-  link.A = pair.first;
-  link.B = pair.second;
+  link.A = open.Pair.first;
+  link.B = open.Pair.second;
   link.Kernel = static_cast<float>(
     seen.Fraction * exchange.Value / i.Area * (this->Tree[0].Area / j.Area));
   link.Slope = 0.0f;
-  link.FormA = static_cast<float>(exchange.Error / i.Area);
-  link.FormB = static_cast<float>(exchange.Error / j.Area);
-  link.SightA = static_cast<float>(seen.Error * exchange.Value / i.Area);
-  link.SightB = static_cast<float>(seen.Error * exchange.Value / j.Area);
+  link.FormA = link.FormB = static_cast<float>(seen.Fraction * exchange.Error / exchange.Value);
+  link.Sight = static_cast<float>(seen.Error);
+  link.Factor = static_cast<float>(exchange.Value / i.Area);
   links.push_back(link);
 }
 

@@ -6,6 +6,7 @@
 #include "radiometry/irradiance/ExchangeOptions.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -19,9 +20,10 @@ struct ClusterLink
   std::int32_t A, B; // nodes, A < B
   float Kernel;      // S / (area of A, area of B), visibility included, times the tree's area
   float Slope;       // t of ExchangeSlope; 0: the same for all pairs
-  // Standard errors of a row's form factor, for the elements of A and of B.
-  float FormA, FormB; // by the form of the kernel
-  float SightA, SightB; // by visibility
+  // Relative to the exchange without what hides it, root mean squares:
+  float FormA, FormB; // of what the kernel misses at elements of A and of B
+  float Sight;        // of what visibility misses
+  float Factor;       // form factor from A to B, unoccluded
 };
 
 using NodePair = std::pair<std::int32_t, std::int32_t>;
@@ -51,24 +53,50 @@ public:
   bool Refine(
     NodePair pair, std::size_t most, std::vector<ClusterLink>& links, Tally& tally) const;
   /// Divides pairs that no link would do for until there are `wanted`, as tasks for Refine.
-  std::vector<NodePair> Tasks(std::size_t wanted, std::vector<ClusterLink>& links, Tally& tally) const;
+  std::vector<NodePair> Tasks(
+    std::size_t wanted, std::vector<ClusterLink>& links, Tally& tally) const;
 
 private:
-  /// One step: appends a link, pairs to go on with, or nothing where nothing is exchanged.
-  void Step(NodePair pair, std::vector<ClusterLink>& links, std::vector<NodePair>& more,
-    Tally& tally) const;
-  void LinkElements(NodePair pair, std::vector<ClusterLink>& links, Tally& tally) const;
-  void Divide(NodePair pair, std::vector<NodePair>& more) const;
+  /// A ray between points of two elements, by their places in the tree's order.
+  struct Sample
+  {
+    std::int32_t I, J;
+    float Weight;
+    bool Visible;
+  };
+  /// A pair to go on with, and how many of the last samples are its own (rays cast for pairs that
+  /// held it, which fell on it).
+  struct Open
+  {
+    NodePair Pair;
+    std::int32_t Samples = 0;
+    bool Mixed = false; // the pair that held it was seen in part
+  };
+  struct Work
+  {
+    std::vector<Open> Stack;
+    std::vector<Sample> Samples;
+    std::vector<Sample> Own; // of the pair in hand
+    Tally Count;
+  };
   struct Sight
   {
     double Fraction = 1.0, Spread = 0.0, Error = 0.0;
   };
-  Sight Look(NodePair pair, double factor, Tally& tally) const;
+  /// Takes the last pair off the stack: appends a link, pairs to go on with, or nothing where
+  /// nothing is exchanged.
+  void Step(Work& work, std::vector<ClusterLink>& links) const;
+  void LinkElements(
+    const Open& open, Work& work, std::vector<ClusterLink>& links) const;
+  void Divide(const Open& open, Work& work) const;
+  Sight Look(const Open& open, double factor, Work& work) const;
+  Sample Cast(NodePair pair, const std::array<double, 4>& u) const;
 
   const ElementTree& Tree;
   const ElementSet& Elements;
   const OcclusionScene& Occluders;
-  std::vector<ExchangePatch> Shapes;
+  std::vector<ExchangePatch> Shapes;     // in the tree's order
+  std::vector<std::int32_t> Triangles;   // of the scene, in the tree's order
   double Tolerance, FormAllowance, SightAllowance;
   std::uint64_t Seed;
   bool Occlusion;

@@ -19,17 +19,32 @@ namespace
 {
 
 constexpr double MiB = 1024.0 * 1024.0;
+constexpr double FarShare = 0.5; // of a source's unevenness that lines up with the kernel's
 
-/// A non-negative number in 16 bits, to 1 %: its logarithm.
-std::uint16_t Coded(double value)
+/// A non-negative number in 8 bits, to 5 %: its logarithm, from 2^-28 to 16.
+std::uint8_t Coded(double value)
 {
   return value > 0.0
-    ? static_cast<std::uint16_t>(std::clamp(std::lround(std::log2(value) * 64.0) + 49152l, 1l, 65535l))
-    : std::uint16_t(0);
+    ? static_cast<std::uint8_t>(std::clamp(std::lround(std::log2(value) * 8.0) + 224l, 1l, 255l))
+    : std::uint8_t(0);
 }
-double Decoded(std::uint16_t code)
+
+struct Decoder
 {
-  return code ? std::exp2((code - 49152) / 64.0) : 0.0;
+  double Value[256];
+  Decoder()
+  {
+    this->Value[0] = 0.0;
+    for (int k = 1; k < 256; ++k)
+    {
+      this->Value[k] = std::exp2((k - 224) / 8.0);
+    }
+  }
+};
+double Decoded(std::uint8_t code)
+{
+  static const Decoder decoder;
+  return decoder.Value[code];
 }
 
 /// A link as one of its nodes sees it.
@@ -38,7 +53,9 @@ struct Entry
   std::int32_t Other;
   float Kernel;
   float Slope;
-  std::uint16_t Form, Sight; // errors of this node's rows, coded
+  std::uint8_t Factor;    // the row's form factor, unoccluded; coded, as all here
+  std::uint8_t Form, Far; // what it misses, relative to that: over this node, over the other
+  std::uint8_t Sight;     // by visibility
 };
 
 } // namespace
@@ -145,7 +162,8 @@ struct HierarchicalOperator::Internals
   void Build(const OcclusionScene& occluders, const ElementSet& elements,
     const ExchangeOptions& options, bool occlusion, const StageProgress& stage);
   bool MakeLinks(const ClusterRefiner& refiner, std::size_t most, const StageProgress& stage);
-  void Close(const std::vector<std::uint8_t>& fixed);
+  void Close(std::vector<std::uint8_t>& fixed);
+  bool TryClose(std::vector<std::uint8_t>& fixed);
   void CloseRows(std::vector<std::uint8_t> closed);
   double WorstDefect(const std::vector<std::uint8_t>& closed) const;
 };
@@ -297,10 +315,12 @@ bool HierarchicalOperator::Internals::MakeLinks(
   {
     for (const ClusterLink& link : part)
     {
+      const double back =
+        static_cast<double>(link.Factor) * this->Tree[link.A].Area / this->Tree[link.B].Area;
       this->Entries[next[static_cast<std::size_t>(link.A)]++] = { link.B, link.Kernel, link.Slope,
-        Coded(link.FormA), Coded(link.SightA) };
+        Coded(link.Factor), Coded(link.FormA), Coded(link.FormB), Coded(link.Sight) };
       this->Entries[next[static_cast<std::size_t>(link.B)]++] = { link.A, link.Kernel, link.Slope,
-        Coded(link.FormB), Coded(link.SightB) };
+        Coded(back), Coded(link.FormB), Coded(link.FormA), Coded(link.Sight) };
     }
     std::vector<ClusterLink>().swap(part);
   }
@@ -341,10 +361,19 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
 }
 
 /// Scales S by d on both sides so that the fixed rows sum to one: Newton's method on
-/// d_i (S d)_i = A_i, each step by conjugate gradients.
-void HierarchicalOperator::Internals::Close(const std::vector<std::uint8_t>& fixed)
+/// d_i (S d)_i = A_i, each step by conjugate gradients. Rows that no small change mends are let go.
+void HierarchicalOperator::Internals::Close(std::vector<std::uint8_t>& fixed)
 {
   const std::vector<double> before = this->Scale;
+  while (!this->TryClose(fixed))
+  {
+    this->Scale = before;
+  }
+  this->SumRows();
+}
+
+bool HierarchicalOperator::Internals::TryClose(std::vector<std::uint8_t>& fixed)
+{
   const std::size_t n = this->N;
   std::vector<double> x(n), r(n), z(n), p(n), product(n);
   double last = std::numeric_limits<double>::infinity();
@@ -359,7 +388,7 @@ void HierarchicalOperator::Internals::Close(const std::vector<std::uint8_t>& fix
     }
     if (worst < 4e-15 || (worst < 1e-12 && worst > 0.5 * last))
     {
-      return;
+      return true;
     }
     last = worst;
     const auto precondition = [&](std::size_t i) {
@@ -403,22 +432,26 @@ void HierarchicalOperator::Internals::Close(const std::vector<std::uint8_t>& fix
         p[i] = z[i] + beta * p[i];
       }
     }
+    bool small = true;
     for (std::size_t i = 0; i < n; ++i)
     {
       const double next = this->Scale[i] * (1.0 + x[i]);
-      if (!(next > 0.5 && next < 2.0))
+      if (fixed[i] && !(next > 0.5 && next < 2.0))
       {
-        this->Scale = before; // not what it seems: no small change does it
-        this->SumRows();
-        return;
+        fixed[i] = 0;
+        small = false;
       }
+    }
+    if (!small)
+    {
+      return false;
     }
     for (std::size_t i = 0; i < n; ++i)
     {
       this->Scale[i] *= 1.0 + x[i];
     }
   }
-  this->SumRows();
+  return true;
 }
 
 double HierarchicalOperator::Internals::WorstDefect(const std::vector<std::uint8_t>& closed) const
@@ -586,16 +619,19 @@ void HierarchicalOperator::ApplyError(
     for (std::size_t e = m.Begin[n]; e < m.Begin[n + 1]; ++e)
     {
       const Entry& entry = m.Entries[e];
-      const double f = Decoded(entry.Form), s = Decoded(entry.Sight);
+      const double factor = Decoded(entry.Factor);
+      const double own = factor * Decoded(entry.Form), far = factor * Decoded(entry.Far);
+      const double hidden = factor * Decoded(entry.Sight);
       const auto other = static_cast<std::size_t>(entry.Other) * nb;
       const double area = m.Tree[entry.Other].Area;
       for (std::size_t b = 0; b < nb; ++b)
       {
+        const double mean = first[other + b] / area;
         const double base = level[n * nb + b] / m.Tree[at].Area;
-        const double square = std::max(0.0,
-          second[other + b] / area + base * (base - 2.0 * first[other + b] / area));
-        form[n * nb + b] += f * f * square;
-        sight[n * nb + b] += s * s * square;
+        const double off = (mean - base) * (mean - base);
+        const double spread = std::max(0.0, second[other + b] / area - mean * mean);
+        form[n * nb + b] += own * own * off + FarShare * FarShare * far * far * spread;
+        sight[n * nb + b] += hidden * hidden * (off + spread);
       }
     }
   };
