@@ -36,7 +36,8 @@ double Unnoticed(double k)
 } // namespace
 
 ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elements,
-  const OcclusionScene& occluders, const ExchangeOptions& options, bool occlusion, double loosened)
+  const OcclusionScene& occluders, const ExchangeOptions& options, bool occlusion, double loosened,
+  const std::vector<std::uint8_t>& covered)
   : Tree(tree)
   , Elements(elements)
   , Occluders(occluders)
@@ -53,6 +54,15 @@ ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elemen
     const Patch& patch = elements.GetPatches()[static_cast<std::size_t>(item)];
     this->Shapes.emplace_back(patch.Corners);
     this->Triangles.push_back(patch.Triangle);
+  }
+  this->Covered.assign(tree.Size(), 0);
+  for (std::size_t k = tree.Size(); k-- > 0 && !covered.empty();)
+  {
+    const ElementTree::Node& node = tree[static_cast<std::int32_t>(k)];
+    const auto item = static_cast<std::size_t>(tree.Order()[static_cast<std::size_t>(node.First)]);
+    this->Covered[k] = node.Leaf()
+      ? covered[item] == 1
+      : this->Covered[k + 1] && this->Covered[static_cast<std::size_t>(node.Second)];
   }
 }
 
@@ -134,6 +144,8 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   work.Own.assign(work.Samples.end() - open.Samples, work.Samples.end());
   work.Samples.resize(work.Samples.size() - static_cast<std::size_t>(open.Samples));
   const auto [ia, ib] = open.Pair;
+  open.Mixed = open.Mixed || this->Covered[static_cast<std::size_t>(ia)] ||
+    this->Covered[static_cast<std::size_t>(ib)];
   const ElementTree::Node& a = this->Tree[ia];
   const ElementTree::Node& b = this->Tree[ib];
   if (ia == ib)
@@ -244,7 +256,7 @@ ClusterRefiner::Sight ClusterRefiner::Look(const Open& open, double factor, Work
 {
   const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
   const int rays = static_cast<int>(
-    std::clamp(std::ceil(0.125 / (wanted * wanted)), open.Mixed ? 6.0 : 4.0, 64.0));
+    std::clamp(std::ceil(0.125 / (wanted * wanted)), open.Mixed ? 12.0 : 4.0, 64.0));
   double all = 0.0, seen = 0.0;
   int cast = 0, visible = 0;
   const auto count = [&](const Sample& sample) {
@@ -316,7 +328,7 @@ void ClusterRefiner::LinkElements(
   {
     const double factor = exchange.Value / std::min(i.Area, j.Area);
     const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
-    const double rays = std::clamp(0.125 / (wanted * wanted), open.Mixed ? 8.0 : 4.0, 64.0);
+    const double rays = std::clamp(0.125 / (wanted * wanted), open.Mixed ? 16.0 : 4.0, 64.0);
     const int first = static_cast<int>(std::exp2(std::ceil(std::log2(rays))));
     seen = PairVisibility(this->Occluders, i, p, j, q, Hash64(this->Seed, KeyOf(open.Pair)), first,
       4096, wanted);
@@ -336,6 +348,34 @@ void ClusterRefiner::LinkElements(
   link.Sight = static_cast<float>(seen.Error);
   link.Factor = static_cast<float>(exchange.Value / i.Area);
   links.push_back(link);
+}
+
+std::vector<std::uint8_t> FindCovered(const OcclusionScene& occluders, const ElementSet& elements,
+  const ExchangeOptions& options, const StageProgress& stage)
+{
+  constexpr int rays = 8;
+  std::vector<std::uint8_t> kinds(elements.Size());
+  ParallelFor(
+    elements.Size(), options.Threads, stage,
+    [&](std::size_t i) {
+      const ExchangePatch shape(elements.GetPatches()[i].Corners);
+      const std::int32_t triangle = elements.GetPatches()[i].Triangle;
+      const SobolSequence sequence(Hash64(Hash64(options.Seed, 0x636f766572ull), i));
+      Vec3 s, t;
+      Frame(shape.Normal, s, t);
+      int hidden = 0;
+      for (std::uint32_t k = 0; k < rays; ++k)
+      {
+        const auto u = sequence(k);
+        const Vec3 start = TrianglePoint(shape.Corners, u[0], u[1]);
+        const Vec3 end =
+          start + shape.Radius * (shape.Normal + (u[2] - 0.5) * s + (u[3] - 0.5) * t);
+        hidden += occluders.Occluded({ start, triangle }, { end, -1 });
+      }
+      kinds[i] = hidden == 0 ? 0 : (hidden == rays ? 2 : 1);
+    },
+    5e-6);
+  return kinds;
 }
 
 } // namespace radiometry

@@ -4,6 +4,7 @@
 #include "radiometry/formfactor/ElementTree.h"
 #include "radiometry/geometry/PairExchange.h"
 #include "radiometry/irradiance/ExchangeOptions.h"
+#include "radiometry/scene/Parallel.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include <array>
@@ -46,7 +47,7 @@ public:
   /// `occlusion` false: nothing hides anything. `loosened`: factor on the allowance.
   ClusterRefiner(const ElementTree& tree, const ElementSet& elements,
     const OcclusionScene& occluders, const ExchangeOptions& options, bool occlusion,
-    double loosened);
+    double loosened, const std::vector<std::uint8_t>& covered);
 
   /// All links of a pair, appended; (node, node): those within the node. False when more than
   /// `most` were found (the rest is then missing).
@@ -97,9 +98,15 @@ private:
   const OcclusionScene& Occluders;
   std::vector<ExchangePatch> Shapes;     // in the tree's order
   std::vector<std::int32_t> Triangles;   // of the scene, in the tree's order
+  std::vector<std::uint8_t> Covered;     // of nodes: holds elements before which something stands
   double Tolerance, FormAllowance, SightAllowance;
   std::uint64_t Seed;
   bool Occlusion;
 };
+
+/// Elements by what stands close before them (within their own radius): 0 nothing, 1 something
+/// before a part of them, 2 before all of them. What is so close hides the same part from everything.
+std::vector<std::uint8_t> FindCovered(const OcclusionScene& occluders, const ElementSet& elements,
+  const ExchangeOptions& options, const StageProgress& stage);
 
 } // namespace radiometry

@@ -49,11 +49,13 @@ struct ElementTree::Builder
   const std::vector<double>& Areas;
   std::vector<Vec3> Centers, Normals;
   std::vector<double> Radii;
+  std::vector<std::uint8_t> Kinds;
   ElementTree& Tree;
 
-  Builder(const ElementSet& elements, ElementTree& tree)
+  Builder(const ElementSet& elements, std::vector<std::uint8_t> kinds, ElementTree& tree)
     : Patches(elements.GetPatches())
     , Areas(elements.GetAreas())
+    , Kinds(std::move(kinds))
     , Tree(tree)
   {
     const std::size_t n = this->Patches.size();
@@ -151,6 +153,16 @@ struct ElementTree::Builder
         return place(cut);
       }
     }
+    if (!this->Kinds.empty() && depth < Deepest)
+    {
+      const std::uint8_t kind = this->Kinds[at(*first)];
+      const auto cut = std::partition(
+        first, last, [&](std::int32_t i) { return this->Kinds[at(i)] == kind; });
+      if (cut != last)
+      {
+        return place(cut);
+      }
+    }
     double largest = 0.0;
     Box3 box;
     for (auto it = first; it != last; ++it)
@@ -219,7 +231,7 @@ struct ElementTree::Builder
   }
 };
 
-ElementTree::ElementTree(const ElementSet& elements)
+ElementTree::ElementTree(const ElementSet& elements, std::vector<std::uint8_t> kinds)
 {
   const std::size_t n = elements.Size();
   if (n == 0)
@@ -232,7 +244,7 @@ ElementTree::ElementTree(const ElementSet& elements)
     this->Items[i] = static_cast<std::int32_t>(i);
   }
   this->Nodes.resize(2 * n - 1);
-  Builder builder(elements, *this);
+  Builder builder(elements, std::move(kinds), *this);
   builder.Build(0, -1, 0, static_cast<std::int32_t>(n), 0);
   double extent = 0.0;
   for (const Patch& p : elements.GetPatches())

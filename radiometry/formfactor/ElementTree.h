@@ -10,7 +10,7 @@ namespace radiometry
 {
 
 /// A binary tree over elements, for exchange between clusters of them: alike in orientation first
-/// (until normals differ by less than some 35 degrees), then in size, then in place.
+/// (until normals differ by less than some 35 degrees), then in kind, in size, and in place.
 ///   Nodes    in preorder: the first child follows its parent; a cluster of m elements fills
 ///            2 m - 1 nodes; leaves are single elements
 ///   Cost     O(n log n), some 2 s for a million elements
@@ -36,7 +36,8 @@ public:
   };
 
   ElementTree() = default;
-  explicit ElementTree(const ElementSet& elements);
+  /// `kinds`: elements of different kinds are kept apart below the division by orientation.
+  explicit ElementTree(const ElementSet& elements, std::vector<std::uint8_t> kinds = {});
 
   std::size_t Size() const { return this->Nodes.size(); }
   const Node& operator[](std::int32_t node) const

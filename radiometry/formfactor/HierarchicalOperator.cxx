@@ -160,7 +160,8 @@ struct HierarchicalOperator::Internals
   }
 
   void Build(const OcclusionScene& occluders, const ElementSet& elements,
-    const ExchangeOptions& options, bool occlusion, const StageProgress& stage);
+    const std::vector<std::uint8_t>& covered, const ExchangeOptions& options, bool occlusion,
+    const StageProgress& stage);
   bool MakeLinks(const ClusterRefiner& refiner, std::size_t most, const StageProgress& stage);
   void Close(std::vector<std::uint8_t>& fixed);
   bool TryClose(std::vector<std::uint8_t>& fixed);
@@ -335,8 +336,8 @@ bool HierarchicalOperator::Internals::MakeLinks(
 }
 
 void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
-  const ElementSet& elements, const ExchangeOptions& options, bool occlusion,
-  const StageProgress& stage)
+  const ElementSet& elements, const std::vector<std::uint8_t>& covered,
+  const ExchangeOptions& options, bool occlusion, const StageProgress& stage)
 {
   const std::size_t base = this->N * 600; // tree, shapes, moments of a product
   std::size_t most = std::numeric_limits<std::size_t>::max();
@@ -347,7 +348,7 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
   for (this->Loosened = 1.0;; this->Loosened *= 2.0)
   {
     const ClusterRefiner refiner(
-      this->Tree, elements, occluders, options, occlusion, this->Loosened);
+      this->Tree, elements, occluders, options, occlusion, this->Loosened, covered);
     if (this->MakeLinks(refiner, most, stage))
     {
       return;
@@ -537,7 +538,6 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     m.Begin.assign(1, 0);
     return;
   }
-  m.Tree = ElementTree(elements);
   const bool occlusion = options.Occlusion && FindConvexity(scene) == Convexity::General;
   const auto part = [&](double from, double to) {
     StageProgress p = stage;
@@ -545,7 +545,13 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     p.End = stage.Begin + to * (stage.End - stage.Begin);
     return p;
   };
-  m.Build(occluders, elements, options, occlusion, part(0.0, 0.9));
+  std::vector<std::uint8_t> covered;
+  if (occlusion)
+  {
+    covered = FindCovered(occluders, elements, options, part(0.0, 0.05));
+  }
+  m.Tree = ElementTree(elements, covered);
+  m.Build(occluders, elements, covered, options, occlusion, part(0.05, 0.9));
   m.SumRows();
   if (options.Occlusion)
   {
