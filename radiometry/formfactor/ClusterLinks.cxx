@@ -18,7 +18,8 @@ constexpr double FarEnough = 0.7; // sum of radii over distance at which a rule 
 // Shares of the tolerance that one link may miss of a row. Some hundred links make a row; their
 // errors add by squares.
 constexpr double FormShare = 0.02;
-constexpr double SightShare = 0.1;
+constexpr double SightShare = 0.1;     // of what differs by the far elements
+constexpr double OwnSightShare = 0.02; // of what differs by the near ones: alike in many links
 // What of the unevenness of the kernel over the far elements shows in a row, root mean square.
 constexpr double FarShare = 0.5;
 
@@ -44,6 +45,7 @@ ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elemen
   , Tolerance(std::clamp(options.RelativeTolerance, 1e-7, 0.5) * loosened)
   , FormAllowance(FormShare * Tolerance)
   , SightAllowance(SightShare * Tolerance)
+  , OwnSightAllowance(OwnSightShare * Tolerance)
   , Seed(options.Seed)
   , Occlusion(occlusion)
 {
@@ -112,7 +114,11 @@ void ClusterRefiner::Divide(const Open& open, Work& work) const
 {
   const ElementTree::Node& a = this->Tree[open.Pair.first];
   const ElementTree::Node& b = this->Tree[open.Pair.second];
-  const bool first = b.Leaf() || (!a.Leaf() && a.Radius >= b.Radius);
+  this->Divide(open, b.Leaf() || (!a.Leaf() && a.Radius >= b.Radius), work);
+}
+
+void ClusterRefiner::Divide(const Open& open, bool first, Work& work) const
+{
   const std::int32_t whole = first ? open.Pair.first : open.Pair.second;
   const std::int32_t other = first ? open.Pair.second : open.Pair.first;
   const std::int32_t middle = this->Tree[this->Tree[whole].Second].First;
@@ -200,12 +206,16 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   Sight sight;
   if (this->Occlusion)
   {
-    const double factor = std::max(inA, inB);
-    sight = this->Look(open, factor, work);
-    if (factor * sight.Spread > this->SightAllowance)
+    sight = this->Look(open, std::max(inA, inB), work);
+    // Dividing a cluster helps its own elements, and the far ones by half as much.
+    const double byA = std::max(
+      inA * sight.SpreadA / this->OwnSightAllowance, inB * sight.SpreadA / this->SightAllowance);
+    const double byB = std::max(
+      inB * sight.SpreadB / this->OwnSightAllowance, inA * sight.SpreadB / this->SightAllowance);
+    if (std::max(byA, byB) > 1.0)
     {
       open.Mixed = true;
-      this->Divide(open, work);
+      this->Divide(open, !a.Leaf() && (byA >= byB || b.Leaf()), work);
       return;
     }
     if (sight.Fraction == 0.0)
@@ -221,7 +231,8 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   link.Slope = static_cast<float>(estimate.Slope);
   link.FormA = static_cast<float>(sight.Fraction * std::hypot(estimate.SpreadA, far));
   link.FormB = static_cast<float>(sight.Fraction * std::hypot(estimate.SpreadB, far));
-  link.Sight = static_cast<float>(std::hypot(sight.Spread, sight.Error));
+  link.SightA = static_cast<float>(std::hypot(sight.SpreadA, sight.Error));
+  link.SightB = static_cast<float>(std::hypot(sight.SpreadB, sight.Error));
   link.Factor = static_cast<float>(inA);
   links.push_back(link);
 }
@@ -283,7 +294,8 @@ ClusterRefiner::Sight ClusterRefiner::Look(const Open& open, double factor, Work
   Sight sight;
   if (cast == 0)
   {
-    sight = { 0.5, 0.5, 0.0 };
+    sight.Fraction = 0.5;
+    sight.SpreadA = sight.SpreadB = sight.Error = 0.35;
     return sight;
   }
   sight.Fraction = visible == cast ? 1.0 : seen / all;
@@ -291,14 +303,49 @@ ClusterRefiner::Sight ClusterRefiner::Look(const Open& open, double factor, Work
   {
     // With few rays the share itself is uncertain: as if one more of each kind had been met.
     const double share = (sight.Fraction * cast + 1.0) / (cast + 2.0);
-    sight.Spread = std::sqrt(share * (1.0 - share));
-    sight.Error = sight.Spread / std::sqrt(static_cast<double>(cast));
+    const double spread = std::sqrt(share * (1.0 - share));
+    sight.Error = spread / std::sqrt(static_cast<double>(cast));
+    // A blocker near one cluster hides alike from all of the other: what is seen differs by the
+    // places in the first. Between: by how much the edge of a shadow is blurred on either.
+    const ElementTree::Node& a = this->Tree[open.Pair.first];
+    const ElementTree::Node& b = this->Tree[open.Pair.second];
+    const double place = this->BlockerPlace(work);
+    const double onA = a.Leaf() ? 0.0 : a.Radius * (1.0 - place);
+    const double onB = b.Leaf() ? 0.0 : b.Radius * place;
+    const double shareA = onA + onB > 0.0 ? onA / (onA + onB) : 0.5;
+    sight.SpreadA = spread * std::sqrt(shareA);
+    sight.SpreadB = spread * std::sqrt(1.0 - shareA);
   }
   else if (open.Mixed)
   {
     sight.Error = std::sqrt(Unnoticed(cast));
   }
   return sight;
+}
+
+/// Where between A (0) and B (1) the blockers stand, from some rays that were hidden.
+double ClusterRefiner::BlockerPlace(const Work& work) const
+{
+  double sum = 0.0;
+  int found = 0, asked = 0;
+  for (const Sample& sample : work.Own)
+  {
+    if (sample.Visible || asked >= 3)
+    {
+      continue;
+    }
+    ++asked;
+    const auto i = static_cast<std::size_t>(sample.I), j = static_cast<std::size_t>(sample.J);
+    const Vec3 start = this->Shapes[i].Center;
+    const SurfaceHit hit =
+      this->Occluders.Closest({ start, this->Triangles[i] }, this->Shapes[j].Center - start);
+    if (hit.Triangle >= 0 && hit.Distance < 1.0)
+    {
+      sum += hit.Distance;
+      ++found;
+    }
+  }
+  return found > 0 ? std::clamp(sum / found, 0.02, 0.98) : 0.5;
 }
 
 void ClusterRefiner::LinkElements(
@@ -345,7 +392,7 @@ void ClusterRefiner::LinkElements(
     seen.Fraction * exchange.Value / i.Area * (this->Tree[0].Area / j.Area));
   link.Slope = 0.0f;
   link.FormA = link.FormB = static_cast<float>(seen.Fraction * exchange.Error / exchange.Value);
-  link.Sight = static_cast<float>(seen.Error);
+  link.SightA = link.SightB = static_cast<float>(seen.Error);
   link.Factor = static_cast<float>(exchange.Value / i.Area);
   links.push_back(link);
 }
@@ -369,7 +416,7 @@ std::vector<std::uint8_t> FindCovered(const OcclusionScene& occluders, const Ele
         const auto u = sequence(k);
         const Vec3 start = TrianglePoint(shape.Corners, u[0], u[1]);
         const Vec3 end =
-          start + shape.Radius * (shape.Normal + (u[2] - 0.5) * s + (u[3] - 0.5) * t);
+          start + 2.0 * shape.Radius * (shape.Normal + 0.8 * ((u[2] - 0.5) * s + (u[3] - 0.5) * t));
         hidden += occluders.Occluded({ start, triangle }, { end, -1 });
       }
       kinds[i] = hidden == 0 ? 0 : (hidden == rays ? 2 : 1);

@@ -23,7 +23,7 @@ struct ClusterLink
   float Slope;       // t of ExchangeSlope; 0: the same for all pairs
   // Relative to the exchange without what hides it, root mean squares:
   float FormA, FormB; // of what the kernel misses at elements of A and of B
-  float Sight;        // of what visibility misses
+  float SightA, SightB; // of what visibility misses at elements of A and of B
   float Factor;       // form factor from A to B, unoccluded
 };
 
@@ -82,7 +82,9 @@ private:
   };
   struct Sight
   {
-    double Fraction = 1.0, Spread = 0.0, Error = 0.0;
+    double Fraction = 1.0;
+    double SpreadA = 0.0, SpreadB = 0.0; // root mean square, by elements of A and of B
+    double Error = 0.0;                  // of the fraction
   };
   /// Takes the last pair off the stack: appends a link, pairs to go on with, or nothing where
   /// nothing is exchanged.
@@ -90,6 +92,8 @@ private:
   void LinkElements(
     const Open& open, Work& work, std::vector<ClusterLink>& links) const;
   void Divide(const Open& open, Work& work) const;
+  void Divide(const Open& open, bool first, Work& work) const;
+  double BlockerPlace(const Work& work) const;
   Sight Look(const Open& open, double factor, Work& work) const;
   Sample Cast(NodePair pair, const std::array<double, 4>& u) const;
 
@@ -99,7 +103,7 @@ private:
   std::vector<ExchangePatch> Shapes;     // in the tree's order
   std::vector<std::int32_t> Triangles;   // of the scene, in the tree's order
   std::vector<std::uint8_t> Covered;     // of nodes: holds elements before which something stands
-  double Tolerance, FormAllowance, SightAllowance;
+  double Tolerance, FormAllowance, SightAllowance, OwnSightAllowance;
   std::uint64_t Seed;
   bool Occlusion;
 };

@@ -52,10 +52,10 @@ struct Entry
 {
   std::int32_t Other;
   float Kernel;
-  float Slope;
-  std::uint8_t Factor;    // the row's form factor, unoccluded; coded, as all here
-  std::uint8_t Form, Far; // what it misses, relative to that: over this node, over the other
-  std::uint8_t Sight;     // by visibility
+  std::uint8_t Slope;      // in 255ths
+  std::uint8_t Factor;     // the row's form factor, unoccluded; coded, as all that follows
+  std::uint8_t Form, Far;  // what it misses, relative to that: over this node, over the other
+  std::uint8_t Sight, Dim; // by visibility, the same
 };
 
 } // namespace
@@ -213,7 +213,7 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
       const Entry& entry = this->Entries[e];
       const double* m = moments.data() + static_cast<std::size_t>(entry.Other) * width;
       const double kernel = unit * static_cast<double>(entry.Kernel);
-      if (entry.Slope == 0.0f)
+      if (entry.Slope == 0)
       {
         for (std::size_t b = 0; b < nb; ++b)
         {
@@ -222,7 +222,7 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
         continue;
       }
       const Vec3 slope =
-        static_cast<double>(entry.Slope) * ExchangeSlope(node, this->Tree[entry.Other]).Slope;
+        entry.Slope / 255.0 * ExchangeSlope(node, this->Tree[entry.Other]).Slope;
       for (std::size_t b = 0; b < nb; ++b)
       {
         const double* mb = m + 4 * b;
@@ -316,12 +316,15 @@ bool HierarchicalOperator::Internals::MakeLinks(
   {
     for (const ClusterLink& link : part)
     {
+      const auto slope = static_cast<std::uint8_t>(link.Slope * 255.0f);
       const double back =
         static_cast<double>(link.Factor) * this->Tree[link.A].Area / this->Tree[link.B].Area;
-      this->Entries[next[static_cast<std::size_t>(link.A)]++] = { link.B, link.Kernel, link.Slope,
-        Coded(link.Factor), Coded(link.FormA), Coded(link.FormB), Coded(link.Sight) };
-      this->Entries[next[static_cast<std::size_t>(link.B)]++] = { link.A, link.Kernel, link.Slope,
-        Coded(back), Coded(link.FormB), Coded(link.FormA), Coded(link.Sight) };
+      this->Entries[next[static_cast<std::size_t>(link.A)]++] = { link.B, link.Kernel, slope,
+        Coded(link.Factor), Coded(link.FormA), Coded(link.FormB), Coded(link.SightA),
+        Coded(link.SightB) };
+      this->Entries[next[static_cast<std::size_t>(link.B)]++] = { link.A, link.Kernel, slope,
+        Coded(back), Coded(link.FormB), Coded(link.FormA), Coded(link.SightB),
+        Coded(link.SightA) };
     }
     std::vector<ClusterLink>().swap(part);
   }
@@ -627,7 +630,7 @@ void HierarchicalOperator::ApplyError(
       const Entry& entry = m.Entries[e];
       const double factor = Decoded(entry.Factor);
       const double own = factor * Decoded(entry.Form), far = factor * Decoded(entry.Far);
-      const double hidden = factor * Decoded(entry.Sight);
+      const double hidden = factor * Decoded(entry.Sight), dim = factor * Decoded(entry.Dim);
       const auto other = static_cast<std::size_t>(entry.Other) * nb;
       const double area = m.Tree[entry.Other].Area;
       for (std::size_t b = 0; b < nb; ++b)
@@ -637,7 +640,7 @@ void HierarchicalOperator::ApplyError(
         const double off = (mean - base) * (mean - base);
         const double spread = std::max(0.0, second[other + b] / area - mean * mean);
         form[n * nb + b] += own * own * off + FarShare * FarShare * far * far * spread;
-        sight[n * nb + b] += hidden * hidden * (off + spread);
+        sight[n * nb + b] += hidden * hidden * off + dim * dim * spread;
       }
     }
   };
