@@ -88,8 +88,8 @@ double Kernel(const Vec3& x, const Vec3& n, const Vec3& y, const Vec3& m)
 }
 
 /// Mean square of what the linear model misses of what arrives at the places in between.
-double MissedBetween(const Rule& at, const Vec3& center, const Vec3& slope, const Rule& from,
-  double mean)
+double MissedBetween(const Rule& at, const ElementTree::Node& node, const Vec3& slope,
+  const Vec3& turn, const Rule& from, double mean)
 {
   double sum = 0.0;
   for (int t = 0; t < at.Tests; ++t)
@@ -100,7 +100,8 @@ double MissedBetween(const Rule& at, const Vec3& center, const Vec3& slope, cons
       k += from.Weight[j] *
         Kernel(at.Between[t], at.BetweenNormal[t], from.Place[j], from.Normal[j]);
     }
-    const double miss = k / mean - 1.0 - Dot(slope, at.Between[t] - center);
+    const double miss = k / mean - 1.0 - Dot(slope, at.Between[t] - node.Center) -
+      Dot(turn, at.BetweenNormal[t] - node.Normal);
     sum += miss * miss;
   }
   return at.Tests > 0 ? sum / at.Tests : 0.0;
@@ -131,17 +132,22 @@ ClusterEstimate EstimateExchange(
   const ElementTree::Node& nb = tree[b];
   out.Exchange = mean * na.Area * nb.Area / Pi;
   const ExchangeSlope model(na, nb);
-  const double reach = model.Reach(na) + model.Reach(nb);
+  const double reach = model.Reach(na) + model.Reach(nb) + model.Bend(na, model.TurnA) +
+    model.Bend(nb, model.TurnB);
   out.Slope = reach > 0.95 ? 0.95 / reach : 1.0;
 
   // Rows see the mean over the other's points of what the model misses, and some of its spread.
   double missA[Rule::Most] = {}, missB[Rule::Most] = {}, all = 0.0;
   for (int i = 0; i < p.N; ++i)
   {
-    const double atA = out.Slope * Dot(model.Slope, p.Place[i] - na.Center);
+    const double atA = out.Slope *
+      (Dot(model.Slope, p.Place[i] - na.Center) +
+        model.TurnA * Dot(p.Normal[i] - na.Normal, model.R));
     for (int j = 0; j < q.N; ++j)
     {
-      const double atB = out.Slope * Dot(model.Slope, q.Place[j] - nb.Center);
+      const double atB = out.Slope *
+        (Dot(model.Slope, q.Place[j] - nb.Center) +
+          model.TurnB * Dot(q.Normal[j] - nb.Normal, model.R));
       const double miss = k[i][j] / mean - (1.0 + atA - atB);
       missA[i] += q.Weight[j] * miss;
       missB[j] += p.Weight[i] * miss;
@@ -158,8 +164,10 @@ ClusterEstimate EstimateExchange(
     meanB += q.Weight[j] * missB[j] * missB[j];
   }
   const Vec3 slope = out.Slope * model.Slope;
-  meanA = (na.Leaf() ? 0.0 : meanA) + MissedBetween(p, na.Center, slope, q, mean);
-  meanB = (nb.Leaf() ? 0.0 : meanB) + MissedBetween(q, nb.Center, -slope, p, mean);
+  meanA = (na.Leaf() ? 0.0 : meanA) +
+    MissedBetween(p, na, slope, (out.Slope * model.TurnA) * model.R, q, mean);
+  meanB = (nb.Leaf() ? 0.0 : meanB) +
+    MissedBetween(q, nb, -slope, (-out.Slope * model.TurnB) * model.R, p, mean);
   out.SpreadA = std::sqrt(meanA);
   out.SpreadB = std::sqrt(meanB);
   out.Both = std::sqrt(all);

@@ -9,10 +9,12 @@
 namespace radiometry
 {
 
-/// How the unoccluded exchange of two clusters a, b changes with place, to first order: that of
-/// points x of a and y of b, relative to its mean, is
-///   1 + t Slope.((x - c_a) - (y - c_b)),  k = (n_a.r)(-n_b.r)/(pi r^4), r = c_b - c_a
-/// Slope is -Slope of (b, a) to the last bit, so that the exchange is symmetric.
+/// How the unoccluded exchange of two clusters a, b changes with place and with normal, to first
+/// order: that of points x of a and y of b, relative to its mean, is
+///   1 + t (Slope.((x - c_a) - (y - c_b)) + TurnA (n_x - n_a).R - TurnB (n_y - n_b).R)
+///   of k = (n_a.R)(-n_b.R)/(pi R^4), R = c_b - c_a, TurnA = 1/n_a.R, TurnB = -1/n_b.R
+/// Slope is -Slope of (b, a) to the last bit, and the turns change places, so that the exchange is
+/// symmetric.
 struct ExchangeSlope
 {
   ExchangeSlope(const ElementTree::Node& a, const ElementTree::Node& b)
@@ -23,7 +25,10 @@ struct ExchangeSlope
   {
     if (this->CosA > 0.0 && this->CosB > 0.0)
     {
-      this->Slope = (b.Normal / this->CosB - a.Normal / this->CosA) + (4.0 / this->R2) * this->R;
+      this->TurnA = 1.0 / this->CosA;
+      this->TurnB = 1.0 / this->CosB;
+      this->Slope =
+        (this->TurnB * b.Normal - this->TurnA * a.Normal) + (4.0 / this->R2) * this->R;
     }
   }
   /// k, 1/m^2.
@@ -32,6 +37,11 @@ struct ExchangeSlope
     return this->CosA > 0.0 && this->CosB > 0.0
       ? this->CosA * this->CosB / (3.14159265358979323846 * this->R2 * this->R2)
       : 0.0;
+  }
+  /// The greatest change by normals of a cluster with that turn.
+  double Bend(const ElementTree::Node& node, double turn) const
+  {
+    return node.Flat() ? 0.0 : turn * node.Bend * std::sqrt(this->R2);
   }
   /// The greatest |Slope.(x - c)| for x of the cluster.
   double Reach(const ElementTree::Node& node) const
@@ -43,6 +53,7 @@ struct ExchangeSlope
 
   Vec3 R;
   double R2, CosA, CosB;
+  double TurnA = 0.0, TurnB = 0.0;
   Vec3 Slope;
 };
 

@@ -134,7 +134,10 @@ void ClusterRefiner::Divide(const Open& open, bool first, Work& work) const
         work.Samples.push_back(sample);
         if (swapped)
         {
-          std::swap(work.Samples.back().I, work.Samples.back().J);
+          Sample& turned = work.Samples.back();
+          std::swap(turned.I, turned.J);
+          std::swap(turned.Place[0], turned.Place[2]);
+          std::swap(turned.Place[1], turned.Place[3]);
         }
         ++part.Samples;
       }
@@ -179,6 +182,18 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   {
     this->Divide(open, work);
     return;
+  }
+  // What stands on an element in part hides the same from all it exchanges with.
+  const bool partA = this->Covered[static_cast<std::size_t>(ia)] && !a.Leaf();
+  const bool partB = this->Covered[static_cast<std::size_t>(ib)] && !b.Leaf();
+  if (partA || partB)
+  {
+    const double most = std::max(partA ? b.Area : 0.0, partB ? a.Area : 0.0);
+    if (most > this->OwnSightAllowance * distance * distance)
+    {
+      this->Divide(open, partA && (!partB || b.Area > a.Area), work);
+      return;
+    }
   }
   ++work.Count.Pairs;
   const ClusterEstimate estimate = EstimateExchange(this->Tree, this->Elements, ia, ib);
@@ -237,20 +252,31 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   links.push_back(link);
 }
 
+std::pair<Vec3, Vec3> ClusterRefiner::Ends(const Sample& sample) const
+{
+  const auto at = [&](std::int32_t item, const float* place) {
+    return TrianglePoint(this->Shapes[static_cast<std::size_t>(item)].Corners,
+      static_cast<double>(place[0]), static_cast<double>(place[1]));
+  };
+  return { at(sample.I, sample.Place), at(sample.J, sample.Place + 2) };
+}
+
 ClusterRefiner::Sample ClusterRefiner::Cast(
   NodePair pair, const std::array<double, 4>& u) const
 {
-  const auto pick = [&](std::int32_t at, double s, double t, std::int32_t& place) {
+  Sample sample;
+  const auto pick = [&](std::int32_t at, double s, double t, std::int32_t& item, float* place) {
     const ElementTree::Node& node = this->Tree[at];
     const double where = s * node.Count;
     const auto k = std::min(static_cast<std::int32_t>(where), node.Count - 1);
-    place = node.First + k;
-    return TrianglePoint(this->Shapes[static_cast<std::size_t>(place)].Corners, where - k, t);
+    item = node.First + k;
+    place[0] = static_cast<float>(where - k);
+    place[1] = static_cast<float>(t);
   };
-  Sample sample;
-  const Vec3 x = pick(pair.first, u[0], u[1], sample.I);
-  const Vec3 y = pick(pair.second, u[2], u[3], sample.J);
+  pick(pair.first, u[0], u[1], sample.I, sample.Place);
+  pick(pair.second, u[2], u[3], sample.J, sample.Place + 2);
   const auto i = static_cast<std::size_t>(sample.I), j = static_cast<std::size_t>(sample.J);
+  const auto [x, y] = this->Ends(sample);
   const ExchangePatch& p = this->Shapes[i];
   const ExchangePatch& q = this->Shapes[j];
   const Vec3 r = y - x;
@@ -335,10 +361,9 @@ double ClusterRefiner::BlockerPlace(const Work& work) const
       continue;
     }
     ++asked;
-    const auto i = static_cast<std::size_t>(sample.I), j = static_cast<std::size_t>(sample.J);
-    const Vec3 start = this->Shapes[i].Center;
-    const SurfaceHit hit =
-      this->Occluders.Closest({ start, this->Triangles[i] }, this->Shapes[j].Center - start);
+    const auto [start, end] = this->Ends(sample);
+    const SurfaceHit hit = this->Occluders.Closest(
+      { start, this->Triangles[static_cast<std::size_t>(sample.I)] }, end - start);
     if (hit.Triangle >= 0 && hit.Distance < 1.0)
     {
       sum += hit.Distance;

@@ -64,6 +64,7 @@ private:
     std::int32_t I, J;
     float Weight;
     bool Visible;
+    float Place[4]; // on the unit square of each triangle
   };
   /// A pair to go on with, and how many of the last samples are its own (rays cast for pairs that
   /// held it, which fell on it).
@@ -95,6 +96,7 @@ private:
   void Divide(const Open& open, bool first, Work& work) const;
   double BlockerPlace(const Work& work) const;
   Sight Look(const Open& open, double factor, Work& work) const;
+  std::pair<Vec3, Vec3> Ends(const Sample& sample) const;
   Sample Cast(NodePair pair, const std::array<double, 4>& u) const;
 
   const ElementTree& Tree;

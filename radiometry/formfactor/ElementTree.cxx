@@ -115,6 +115,7 @@ struct ElementTree::Builder
         r2 = std::max(r2, LengthSquared(d));
         node.Thickness = std::max(node.Thickness, std::abs(Dot(node.Axis, d)));
       }
+      node.Bend = std::max(node.Bend, Length(this->Normals[i] - node.Normal));
       // Nearly equal normals: from the difference, which loses no digits.
       node.Cone = std::min(node.Cone, 1.0 - 0.5 * LengthSquared(this->Normals[i] - node.Axis));
     }

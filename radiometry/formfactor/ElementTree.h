@@ -26,6 +26,7 @@ public:
     double Radius = 0.0;    // greatest distance of a corner from Center
     double Thickness = 0.0; // greatest distance of a corner from the plane about Axis
     double Cone = 1.0;      // least cosine between Axis and a normal
+    double Bend = 0.0;      // greatest |normal - Normal|
     std::int32_t First = 0; // its elements: [First, First + Count) of Order
     std::int32_t Count = 0;
     std::int32_t Second = -1; // the second child; -1: a leaf

@@ -67,6 +67,8 @@ struct HierarchicalOperator::Internals
   ElementTree Tree;
   std::vector<std::size_t> Begin; // of each node's entries
   std::vector<Entry> Entries;
+  std::vector<std::int32_t> Curved; // number of each node whose normals differ; -1: they do not
+  std::size_t CurvedCount = 0;
   std::vector<double> Scale;   // d of each element
   std::vector<double> RowSums; // of F, corrected
   std::vector<std::uint8_t> Closed; // rows brought to one
@@ -153,6 +155,16 @@ struct HierarchicalOperator::Internals
     bands == 1 ? this->Multiply<1>(x, out, 1)
                : (bands == 3 ? this->Multiply<3>(x, out, 3) : this->Multiply<0>(x, out, bands));
   }
+  void NumberCurved()
+  {
+    this->Curved.resize(this->Tree.Size());
+    this->CurvedCount = 0;
+    for (std::size_t k = 0; k < this->Curved.size(); ++k)
+    {
+      const bool flat = this->Tree[static_cast<std::int32_t>(k)].Flat();
+      this->Curved[k] = flat ? -1 : static_cast<std::int32_t>(this->CurvedCount++);
+    }
+  }
   void SumRows()
   {
     const std::vector<double> one(this->N, 1.0);
@@ -170,13 +182,18 @@ struct HierarchicalOperator::Internals
 };
 
 /// out = F x: moments of x go up the tree, links carry them across, values and slopes go down.
+/// Moments: sums of A x times 1, place - centre, and, where normals differ, normal - mean normal.
 template <int Fixed>
 void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int bands) const
 {
   const auto nb = static_cast<std::size_t>(Fixed > 0 ? Fixed : bands);
-  const std::size_t width = 4 * nb; // sum of A x; sum of A x (place - centre)
+  const std::size_t width = 4 * nb, bent = 3 * nb;
   std::vector<double> moments(this->Tree.Size() * width), field(this->Tree.Size() * width);
-  const auto addFrom = [&](double* m, const ElementTree::Node& node, std::int32_t child) {
+  std::vector<double> turns(this->CurvedCount * bent), turned(this->CurvedCount * bent);
+  const auto curved = [&](std::int32_t at) { return this->Curved[static_cast<std::size_t>(at)]; };
+  const auto addFrom = [&](std::int32_t at, std::int32_t child) {
+    const ElementTree::Node& node = this->Tree[at];
+    double* m = moments.data() + static_cast<std::size_t>(at) * width;
     const double* c = moments.data() + static_cast<std::size_t>(child) * width;
     const Vec3 d = this->Tree[child].Center - node.Center;
     for (std::size_t b = 0; b < nb; ++b)
@@ -186,16 +203,33 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
       m[4 * b + 2] += c[4 * b + 2] + c[4 * b] * d.y;
       m[4 * b + 3] += c[4 * b + 3] + c[4 * b] * d.z;
     }
+    if (curved(at) < 0)
+    {
+      return;
+    }
+    double* t = turns.data() + static_cast<std::size_t>(curved(at)) * bent;
+    const double* u = curved(child) < 0
+      ? nullptr
+      : turns.data() + static_cast<std::size_t>(curved(child)) * bent;
+    const Vec3 n = this->Tree[child].Normal - node.Normal;
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        t[3 * b + static_cast<std::size_t>(k)] +=
+          (u ? u[3 * b + static_cast<std::size_t>(k)] : 0.0) + c[4 * b] * n[k];
+      }
+    }
   };
   this->Up([&](std::int32_t at) {
     const ElementTree::Node& node = this->Tree[at];
-    double* m = moments.data() + static_cast<std::size_t>(at) * width;
     if (!node.Leaf())
     {
-      addFrom(m, node, at + 1);
-      addFrom(m, node, node.Second);
+      addFrom(at, at + 1);
+      addFrom(at, node.Second);
       return;
     }
+    double* m = moments.data() + static_cast<std::size_t>(at) * width;
     const std::size_t item = this->Item(node);
     const double weight = node.Area * this->Scale[item];
     for (std::size_t b = 0; b < nb; ++b)
@@ -207,6 +241,8 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
   const auto gather = [&](std::int32_t at) {
     const ElementTree::Node& node = this->Tree[at];
     double* f = field.data() + static_cast<std::size_t>(at) * width;
+    double* g =
+      curved(at) < 0 ? nullptr : turned.data() + static_cast<std::size_t>(curved(at)) * bent;
     const auto n = static_cast<std::size_t>(at);
     for (std::size_t e = this->Begin[n]; e < this->Begin[n + 1]; ++e)
     {
@@ -221,30 +257,43 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
         }
         continue;
       }
-      const Vec3 slope =
-        entry.Slope / 255.0 * ExchangeSlope(node, this->Tree[entry.Other]).Slope;
+      const ExchangeSlope model(node, this->Tree[entry.Other]);
+      const double scale = entry.Slope / 255.0;
+      const Vec3 slope = scale * model.Slope;
+      const std::int32_t bend = curved(entry.Other);
+      const double* t = bend < 0 ? nullptr : turns.data() + static_cast<std::size_t>(bend) * bent;
+      const Vec3 there = (scale * model.TurnB) * model.R;
+      const Vec3 here = (scale * model.TurnA) * model.R;
       for (std::size_t b = 0; b < nb; ++b)
       {
         const double* mb = m + 4 * b;
         const double constant = kernel * mb[0];
-        f[4 * b] +=
-          constant - kernel * (slope.x * mb[1] + slope.y * mb[2] + slope.z * mb[3]);
+        double change = slope.x * mb[1] + slope.y * mb[2] + slope.z * mb[3];
+        if (t)
+        {
+          change += there.x * t[3 * b] + there.y * t[3 * b + 1] + there.z * t[3 * b + 2];
+        }
+        f[4 * b] += constant - kernel * change;
         f[4 * b + 1] += constant * slope.x;
         f[4 * b + 2] += constant * slope.y;
         f[4 * b + 3] += constant * slope.z;
+        if (g)
+        {
+          g[3 * b] += constant * here.x;
+          g[3 * b + 1] += constant * here.y;
+          g[3 * b + 2] += constant * here.z;
+        }
       }
     }
     if (at == 0 && node.Leaf())
     {
-      for (std::size_t b = 0; b < nb; ++b)
-      {
-        out[b] = 0.0; // one element sees nothing of itself
-      }
+      std::fill(out, out + nb, 0.0); // one element sees nothing of itself
     }
   };
   this->Down(gather, [&](std::int32_t at, std::int32_t parent) {
     const ElementTree::Node& node = this->Tree[at];
-    const Vec3 d = node.Center - this->Tree[parent].Center;
+    const ElementTree::Node& above = this->Tree[parent];
+    const Vec3 d = node.Center - above.Center;
     double* f = field.data() + static_cast<std::size_t>(at) * width;
     const double* p = field.data() + static_cast<std::size_t>(parent) * width;
     for (std::size_t b = 0; b < nb; ++b)
@@ -253,6 +302,21 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
       f[4 * b + 1] += p[4 * b + 1];
       f[4 * b + 2] += p[4 * b + 2];
       f[4 * b + 3] += p[4 * b + 3];
+    }
+    if (curved(parent) >= 0)
+    {
+      const Vec3 n = node.Normal - above.Normal;
+      const double* q = turned.data() + static_cast<std::size_t>(curved(parent)) * bent;
+      double* g =
+        curved(at) < 0 ? nullptr : turned.data() + static_cast<std::size_t>(curved(at)) * bent;
+      for (std::size_t b = 0; b < nb; ++b)
+      {
+        f[4 * b] += q[3 * b] * n.x + q[3 * b + 1] * n.y + q[3 * b + 2] * n.z;
+        for (std::size_t k = 3 * b; g && k < 3 * b + 3; ++k)
+        {
+          g[k] += q[k];
+        }
+      }
     }
     if (node.Leaf())
     {
@@ -554,6 +618,7 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     covered = FindCovered(occluders, elements, options, part(0.0, 0.05));
   }
   m.Tree = ElementTree(elements, covered);
+  m.NumberCurved();
   m.Build(occluders, elements, covered, options, occlusion, part(0.05, 0.9));
   m.SumRows();
   if (options.Occlusion)
