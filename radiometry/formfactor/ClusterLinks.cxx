@@ -422,32 +422,4 @@ void ClusterRefiner::LinkElements(
   links.push_back(link);
 }
 
-std::vector<std::uint8_t> FindCovered(const OcclusionScene& occluders, const ElementSet& elements,
-  const ExchangeOptions& options, const StageProgress& stage)
-{
-  constexpr int rays = 8;
-  std::vector<std::uint8_t> kinds(elements.Size());
-  ParallelFor(
-    elements.Size(), options.Threads, stage,
-    [&](std::size_t i) {
-      const ExchangePatch shape(elements.GetPatches()[i].Corners);
-      const std::int32_t triangle = elements.GetPatches()[i].Triangle;
-      const SobolSequence sequence(Hash64(Hash64(options.Seed, 0x636f766572ull), i));
-      Vec3 s, t;
-      Frame(shape.Normal, s, t);
-      int hidden = 0;
-      for (std::uint32_t k = 0; k < rays; ++k)
-      {
-        const auto u = sequence(k);
-        const Vec3 start = TrianglePoint(shape.Corners, u[0], u[1]);
-        const Vec3 end =
-          start + 2.0 * shape.Radius * (shape.Normal + 0.8 * ((u[2] - 0.5) * s + (u[3] - 0.5) * t));
-        hidden += occluders.Occluded({ start, triangle }, { end, -1 });
-      }
-      kinds[i] = hidden == 0 ? 0 : (hidden == rays ? 2 : 1);
-    },
-    5e-6);
-  return kinds;
-}
-
 } // namespace radiometry

@@ -4,7 +4,6 @@
 #include "radiometry/formfactor/ElementTree.h"
 #include "radiometry/geometry/PairExchange.h"
 #include "radiometry/irradiance/ExchangeOptions.h"
-#include "radiometry/scene/Parallel.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include <array>
@@ -109,10 +108,5 @@ private:
   std::uint64_t Seed;
   bool Occlusion;
 };
-
-/// Elements by what stands close before them (within their own radius): 0 nothing, 1 something
-/// before a part of them, 2 before all of them. What is so close hides the same part from everything.
-std::vector<std::uint8_t> FindCovered(const OcclusionScene& occluders, const ElementSet& elements,
-  const ExchangeOptions& options, const StageProgress& stage);
 
 } // namespace radiometry

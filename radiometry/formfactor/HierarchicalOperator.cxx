@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/HierarchicalOperator.h"
 
-#include "radiometry/formfactor/ClosedElements.h"
 #include "radiometry/formfactor/ClusterExchange.h"
 #include "radiometry/formfactor/ClusterLinks.h"
+#include "radiometry/formfactor/ClusterProbes.h"
 #include "radiometry/formfactor/LinkedSets.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/visibility/Convexity.h"
@@ -612,27 +612,28 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     p.End = stage.Begin + to * (stage.End - stage.Begin);
     return p;
   };
-  std::vector<std::uint8_t> covered;
-  if (occlusion)
+  std::unique_ptr<ClusterProbes> probes;
+  if (options.Occlusion)
   {
-    covered = FindCovered(occluders, elements, options, part(0.0, 0.05));
+    probes = std::make_unique<ClusterProbes>(occluders, elements, options, part(0.0, 0.05));
   }
+  const std::vector<std::uint8_t> covered =
+    occlusion ? probes->Covered : std::vector<std::uint8_t>();
   m.Tree = ElementTree(elements, covered);
   m.NumberCurved();
-  m.Build(occluders, elements, covered, options, occlusion, part(0.05, 0.9));
+  m.Build(occluders, elements, covered, options, occlusion, part(0.05, 0.95));
   m.SumRows();
   if (options.Occlusion)
   {
-    std::vector<std::uint8_t> closed =
-      FindClosedElements(occluders, elements, options, part(0.9, 0.97));
+    std::vector<std::uint8_t> closed = probes->Closed(m.Tree);
     const std::vector<double> one(m.N, 1.0);
     std::vector<double> form(m.N), sight(m.N);
     this->ApplyError(one.data(), form.data(), sight.data(), 1);
     for (std::size_t i = 0; i < m.N; ++i)
     {
       // A row that misses more than its own error explains sees an opening the probes did not.
-      closed[i] =
-        closed[i] && std::abs(1.0 - m.RowSums[i]) <= 5.0 * std::hypot(form[i], sight[i]) + 2.0 * options.RelativeTolerance;
+      closed[i] = closed[i] && std::abs(1.0 - m.RowSums[i]) <=
+          5.0 * std::hypot(form[i], sight[i]) + 2.0 * options.RelativeTolerance;
     }
     m.CloseRows(std::move(closed));
   }

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/formfactor/ClusterProbes.h"
+
+#include "radiometry/geometry/Sampling.h"
+
+#include <algorithm>
+
+namespace radiometry
+{
+
+ClusterProbes::ClusterProbes(const OcclusionScene& occluders, const ElementSet& elements,
+  const ExchangeOptions& options, const StageProgress& stage)
+{
+  const std::size_t n = elements.Size();
+  const auto points = static_cast<int>(std::clamp<std::size_t>(65536 / std::max<std::size_t>(n, 1), 4, 16));
+  this->Rays = 2 * points;
+  this->Covered.assign(n, 0);
+  this->Missed.assign(n, 0);
+  ParallelFor(
+    n, options.Threads, stage,
+    [&](std::size_t i) {
+      const Patch& patch = elements.GetPatches()[i];
+      const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
+      if (!(LengthSquared(normal) > 0.0))
+      {
+        return;
+      }
+      const SobolSequence sequence(Hash64(Hash64(options.Seed, 0x636f766572ull), i));
+      int dark = 0;
+      for (int k = 0; k < points; ++k)
+      {
+        const auto u = sequence(static_cast<std::uint32_t>(k));
+        const RayEnd start{ TrianglePoint(patch.Corners, u[0], u[1]), patch.Triangle };
+        const Vec3 direction = CosineDirection(normal, u[2], u[3]);
+        int behind = 0;
+        for (const Vec3& d : { direction, 2.0 * Dot(direction, normal) * normal - direction })
+        {
+          const SurfaceHit hit = occluders.Closest(start, d);
+          const bool receives = elements.Find(hit.Triangle, hit.Front, hit.U, hit.V) >= 0;
+          this->Missed[i] = this->Missed[i] || !receives;
+          behind += hit.Triangle >= 0 && !hit.Front && !receives;
+        }
+        dark += behind == 2;
+      }
+      this->Covered[i] = dark == 0 ? 0 : (dark == points ? 2 : 1);
+    },
+    5e-6);
+  const auto partly = static_cast<std::size_t>(std::count(this->Covered.begin(), this->Covered.end(), 1));
+  if (partly > n / 3)
+  {
+    std::fill(this->Covered.begin(), this->Covered.end(), 0);
+  }
+}
+
+std::vector<std::uint8_t> ClusterProbes::Closed(const ElementTree& tree) const
+{
+  const std::int32_t group = std::max(1, 64 / this->Rays);
+  std::vector<std::uint8_t> closed(this->Missed.size(), 0);
+  for (std::int32_t at = 0; at < static_cast<std::int32_t>(tree.Size());)
+  {
+    const ElementTree::Node& node = tree[at];
+    if (node.Count > group)
+    {
+      ++at;
+      continue;
+    }
+    const auto first = tree.Order().begin() + node.First;
+    const bool all = std::none_of(first, first + node.Count,
+      [&](std::int32_t i) { return this->Missed[static_cast<std::size_t>(i)] != 0; });
+    std::for_each(first, first + node.Count,
+      [&](std::int32_t i) { closed[static_cast<std::size_t>(i)] = all; });
+    at += 2 * node.Count - 1;
+  }
+  return closed;
+}
+
+} // namespace radiometry
