@@ -52,7 +52,8 @@ struct Entry
 {
   std::int32_t Other;
   float Kernel;
-  std::uint8_t Slope;      // in 255ths
+  float Slope[3];          // per metre of this node's place (and the negative of the other's)
+  std::uint8_t Turn;       // t of ExchangeSlope in 255ths; 0: the same for all pairs
   std::uint8_t Factor;     // the row's form factor, unoccluded; coded, as all that follows
   std::uint8_t Form, Far;  // what it misses, relative to that: over this node, over the other
   std::uint8_t Sight, Dim; // by visibility, the same
@@ -175,8 +176,9 @@ struct HierarchicalOperator::Internals
     const std::vector<std::uint8_t>& covered, const ExchangeOptions& options, bool occlusion,
     const StageProgress& stage);
   bool MakeLinks(const ClusterRefiner& refiner, std::size_t most, const StageProgress& stage);
+  /// `fixed`: 1 for rows to be brought to one; becomes 2 for rows that were let go.
   void Close(std::vector<std::uint8_t>& fixed);
-  bool TryClose(std::vector<std::uint8_t>& fixed);
+  std::vector<double> ScaleStep(const std::vector<std::uint8_t>& fixed, double goal) const;
   void CloseRows(std::vector<std::uint8_t> closed);
   double WorstDefect(const std::vector<std::uint8_t>& closed) const;
 };
@@ -249,7 +251,7 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
       const Entry& entry = this->Entries[e];
       const double* m = moments.data() + static_cast<std::size_t>(entry.Other) * width;
       const double kernel = unit * static_cast<double>(entry.Kernel);
-      if (entry.Slope == 0)
+      if (entry.Turn == 0)
       {
         for (std::size_t b = 0; b < nb; ++b)
         {
@@ -257,31 +259,36 @@ void HierarchicalOperator::Internals::Multiply(const double* x, double* out, int
         }
         continue;
       }
-      const ExchangeSlope model(node, this->Tree[entry.Other]);
-      const double scale = entry.Slope / 255.0;
-      const Vec3 slope = scale * model.Slope;
+      const double slope[3] = { kernel * static_cast<double>(entry.Slope[0]),
+        kernel * static_cast<double>(entry.Slope[1]), kernel * static_cast<double>(entry.Slope[2]) };
+      for (std::size_t b = 0; b < nb; ++b)
+      {
+        const double* mb = m + 4 * b;
+        f[4 * b] +=
+          kernel * mb[0] - (slope[0] * mb[1] + slope[1] * mb[2] + slope[2] * mb[3]);
+        f[4 * b + 1] += slope[0] * mb[0];
+        f[4 * b + 2] += slope[1] * mb[0];
+        f[4 * b + 3] += slope[2] * mb[0];
+      }
       const std::int32_t bend = curved(entry.Other);
+      if (!g && bend < 0)
+      {
+        continue;
+      }
+      const ExchangeSlope model(node, this->Tree[entry.Other]);
+      const double scale = kernel * (entry.Turn / 255.0);
       const double* t = bend < 0 ? nullptr : turns.data() + static_cast<std::size_t>(bend) * bent;
       const Vec3 there = (scale * model.TurnB) * model.R;
       const Vec3 here = (scale * model.TurnA) * model.R;
       for (std::size_t b = 0; b < nb; ++b)
       {
-        const double* mb = m + 4 * b;
-        const double constant = kernel * mb[0];
-        double change = slope.x * mb[1] + slope.y * mb[2] + slope.z * mb[3];
         if (t)
         {
-          change += there.x * t[3 * b] + there.y * t[3 * b + 1] + there.z * t[3 * b + 2];
+          f[4 * b] -= there.x * t[3 * b] + there.y * t[3 * b + 1] + there.z * t[3 * b + 2];
         }
-        f[4 * b] += constant - kernel * change;
-        f[4 * b + 1] += constant * slope.x;
-        f[4 * b + 2] += constant * slope.y;
-        f[4 * b + 3] += constant * slope.z;
-        if (g)
+        for (std::size_t k = 0; g && k < 3; ++k)
         {
-          g[3 * b] += constant * here.x;
-          g[3 * b + 1] += constant * here.y;
-          g[3 * b + 2] += constant * here.z;
+          g[3 * b + k] += m[4 * b] * here[static_cast<int>(k)];
         }
       }
     }
@@ -380,15 +387,20 @@ bool HierarchicalOperator::Internals::MakeLinks(
   {
     for (const ClusterLink& link : part)
     {
-      const auto slope = static_cast<std::uint8_t>(link.Slope * 255.0f);
+      const auto turn = static_cast<std::uint8_t>(link.Slope * 255.0f);
+      const Vec3 slope = turn == 0
+        ? Vec3{}
+        : (turn / 255.0) * ExchangeSlope(this->Tree[link.A], this->Tree[link.B]).Slope;
+      const auto x = static_cast<float>(slope.x), y = static_cast<float>(slope.y),
+                 z = static_cast<float>(slope.z);
       const double back =
         static_cast<double>(link.Factor) * this->Tree[link.A].Area / this->Tree[link.B].Area;
-      this->Entries[next[static_cast<std::size_t>(link.A)]++] = { link.B, link.Kernel, slope,
-        Coded(link.Factor), Coded(link.FormA), Coded(link.FormB), Coded(link.SightA),
+      this->Entries[next[static_cast<std::size_t>(link.A)]++] = { link.B, link.Kernel, { x, y, z },
+        turn, Coded(link.Factor), Coded(link.FormA), Coded(link.FormB), Coded(link.SightA),
         Coded(link.SightB) };
-      this->Entries[next[static_cast<std::size_t>(link.B)]++] = { link.A, link.Kernel, slope,
-        Coded(back), Coded(link.FormB), Coded(link.FormA), Coded(link.SightB),
-        Coded(link.SightA) };
+      this->Entries[next[static_cast<std::size_t>(link.B)]++] = { link.A, link.Kernel,
+        { -x, -y, -z }, turn, Coded(back), Coded(link.FormB), Coded(link.FormA),
+        Coded(link.SightB), Coded(link.SightA) };
     }
     std::vector<ClusterLink>().swap(part);
   }
@@ -428,98 +440,103 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
   }
 }
 
-/// Scales S by d on both sides so that the fixed rows sum to one: Newton's method on
-/// d_i (S d)_i = A_i, each step by conjugate gradients. Rows that no small change mends are let go.
-void HierarchicalOperator::Internals::Close(std::vector<std::uint8_t>& fixed)
-{
-  const std::vector<double> before = this->Scale;
-  while (!this->TryClose(fixed))
-  {
-    this->Scale = before;
-  }
-  this->SumRows();
-}
-
-bool HierarchicalOperator::Internals::TryClose(std::vector<std::uint8_t>& fixed)
+/// One step of Newton's method on d_i (S d)_i = A_i over the fixed rows: relative changes of d by
+/// conjugate gradients, until the squared residual is below `goal` of its first value.
+std::vector<double> HierarchicalOperator::Internals::ScaleStep(
+  const std::vector<std::uint8_t>& fixed, double goal) const
 {
   const std::size_t n = this->N;
-  std::vector<double> x(n), r(n), z(n), p(n), product(n);
+  std::vector<double> x(n, 0.0), r(n), z(n), p(n), product(n);
+  double rz = 0.0;
+  const auto precondition = [&](std::size_t i) {
+    const double row = this->RowSums[i] * this->Areas[i];
+    z[i] = fixed[i] == 1 && row > 0.0 ? r[i] / row : 0.0;
+    return r[i] * z[i];
+  };
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    r[i] = fixed[i] == 1 ? this->Areas[i] * (1.0 - this->RowSums[i]) : 0.0;
+    rz += precondition(i);
+    p[i] = z[i];
+  }
+  goal *= rz;
+  for (int iteration = 0; iteration < 12 && rz > goal; ++iteration)
+  {
+    this->Product(p.data(), product.data(), 1);
+    double pq = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      product[i] = fixed[i] == 1 ? this->Areas[i] * (product[i] + this->RowSums[i] * p[i]) : 0.0;
+      pq += p[i] * product[i];
+    }
+    if (!(pq > 0.0))
+    {
+      break;
+    }
+    const double alpha = rz / pq;
+    double next = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      x[i] += alpha * p[i];
+      r[i] -= alpha * product[i];
+      next += precondition(i);
+    }
+    const double beta = next / rz;
+    rz = next;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      p[i] = z[i] + beta * p[i];
+    }
+  }
+  return x;
+}
+
+/// Scales S by d on both sides so that the fixed rows sum to one. Rows that only a large change
+/// would mend are let go: they are not what they seem.
+void HierarchicalOperator::Internals::Close(std::vector<std::uint8_t>& fixed)
+{
   double last = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < 8; ++step)
+  for (int step = 0; step < 24; ++step)
   {
     this->SumRows();
-    double worst = 0.0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      r[i] = fixed[i] ? this->Areas[i] * (1.0 - this->RowSums[i]) : 0.0;
-      worst = std::max(worst, fixed[i] ? std::abs(1.0 - this->RowSums[i]) : 0.0);
-    }
+    const double worst = this->WorstDefect(fixed);
     if (worst < 4e-15 || (worst < 1e-12 && worst > 0.5 * last))
     {
-      return true;
+      return;
+    }
+    bool gone = false;
+    for (std::size_t i = 0; i < this->N && step > 4 && worst > 0.3 * last; ++i)
+    {
+      // What does not come nearer: elements that see little but each other, say.
+      if (fixed[i] == 1 && std::abs(1.0 - this->RowSums[i]) > 0.3 * worst)
+      {
+        fixed[i] = 2;
+        this->Scale[i] = std::min(1.0, this->Scale[i] / this->RowSums[i]);
+        gone = true;
+      }
     }
     last = worst;
-    const auto precondition = [&](std::size_t i) {
-      const double row = this->RowSums[i] * this->Areas[i];
-      z[i] = fixed[i] && row > 0.0 ? r[i] / row : 0.0;
-      return r[i] * z[i];
-    };
-    double rz = 0.0;
-    std::fill(x.begin(), x.end(), 0.0);
-    for (std::size_t i = 0; i < n; ++i)
+    if (gone)
     {
-      rz += precondition(i);
-      p[i] = z[i];
+      continue;
     }
-    const double goal = std::min(1e-4, worst * worst) * rz;
-    for (int iteration = 0; iteration < 40 && rz > goal; ++iteration)
-    {
-      this->Product(p.data(), product.data(), 1);
-      double pq = 0.0;
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        product[i] = fixed[i] ? this->Areas[i] * (product[i] + this->RowSums[i] * p[i]) : 0.0;
-        pq += p[i] * product[i];
-      }
-      if (!(pq > 0.0))
-      {
-        break;
-      }
-      const double alpha = rz / pq;
-      double following = 0.0;
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        x[i] += alpha * p[i];
-        r[i] -= alpha * product[i];
-        following += precondition(i);
-      }
-      const double beta = following / rz;
-      rz = following;
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        p[i] = z[i] + beta * p[i];
-      }
-    }
-    bool small = true;
-    for (std::size_t i = 0; i < n; ++i)
+    const std::vector<double> x = this->ScaleStep(fixed, 1e-4);
+    for (std::size_t i = 0; i < this->N; ++i)
     {
       const double next = this->Scale[i] * (1.0 + x[i]);
-      if (fixed[i] && !(next > 0.5 && next < 2.0))
+      if (fixed[i] == 1 && !(next > 0.8 && next < 1.25))
       {
-        fixed[i] = 0;
-        small = false;
+        fixed[i] = 2;
+        this->Scale[i] = std::min(1.0, this->Scale[i] / this->RowSums[i]);
+        gone = true;
       }
     }
-    if (!small)
-    {
-      return false;
-    }
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < this->N && !gone; ++i)
     {
       this->Scale[i] *= 1.0 + x[i];
     }
   }
-  return true;
+  this->SumRows();
 }
 
 double HierarchicalOperator::Internals::WorstDefect(const std::vector<std::uint8_t>& closed) const
@@ -527,7 +544,7 @@ double HierarchicalOperator::Internals::WorstDefect(const std::vector<std::uint8
   double worst = 0.0;
   for (std::size_t i = 0; i < this->N; ++i)
   {
-    worst = std::max(worst, closed[i] ? std::abs(1.0 - this->RowSums[i]) : 0.0);
+    worst = std::max(worst, closed[i] == 1 ? std::abs(1.0 - this->RowSums[i]) : 0.0);
   }
   return worst;
 }
@@ -557,12 +574,18 @@ void HierarchicalOperator::Internals::CloseRows(std::vector<std::uint8_t> closed
     }
     this->Close(fixed);
   }
+  this->Report.ClosedRows = 0;
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    closed[i] = closed[i] && fixed[i] == 1;
+    this->Report.ClosedRows += closed[i];
+  }
   this->Report.DefectAfter = this->WorstDefect(closed);
   for (std::size_t i = 0; i < this->N; ++i)
   {
     this->Report.LargestChange =
       std::max(this->Report.LargestChange, 2.0 * std::abs(this->Scale[i] - 1.0));
-    this->Closed[i] = fixed[i] && std::abs(this->RowSums[i] - 1.0) < 1e-9;
+    this->Closed[i] = fixed[i] == 1 && std::abs(this->RowSums[i] - 1.0) < 1e-9;
   }
   // Faces in one another are seen more than once: the exchange must not make light all the same.
   const double worst = *std::max_element(this->RowSums.begin(), this->RowSums.end());

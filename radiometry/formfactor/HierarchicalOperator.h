@@ -15,15 +15,15 @@ namespace radiometry
 
 /// Exchange between clusters of elements (ElementTree), linked where it is alike enough for the
 /// tolerance (ClusterRefiner); any triangle soup.
-///   Model        S_ij = A_i A_j K_ab (1 + t Slope.((x_i - c_a) - (x_j - c_b))) d_i d_j for i of a,
-///                j of b: each pair of elements is covered by at most one link
+///   Model        S_ij = A_i A_j K_ab (1 + first order in places and normals) d_i d_j for i of a, j of b
+///                (ExchangeSlope): each pair of elements is covered by at most one link
 ///   Reciprocity  exact: a link serves both directions
 ///   Closure      rows that see nothing but elements sum to one to rounding, others not above:
 ///                S is scaled by d on both sides, the least that does it
 ///   Error        squares of the links' errors add, since links err independently of each other
 ///                in sign; for closed rows what matters of a link is by how much B differs there
 ///                from what the row receives, since a constant B is received exactly
-///   Memory       32 bytes a link, some 200 bytes an element
+///   Memory       56 bytes a link, some 400 bytes an element
 ///   Cost         O(n) links, about (1/tolerance) an element; Apply O(n + links)
 ///   Fails        InputError{"MemoryLimit"} naming the least that would do. Where the links for
 ///                the tolerance do not fit, coarser ones are made, and the error says so
