@@ -6,6 +6,7 @@
 #include "radiometry/accuracy/ConvergenceRecord.h"
 #include "radiometry/effects/EffectPlan.h"
 #include "radiometry/irradiance/ShadowPieces.h"
+#include "radiometry/scene/Communicator.h"
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
@@ -23,6 +24,10 @@ struct vtkRadiometricFilter::Job
   std::vector<radiometry::SurfacePoint> Points;
   bool WantCells = true;
   radiometry::Monitor* Progress = nullptr;
+  /// The processes that compute this together; null: this one alone. Each has the whole scene.
+  const radiometry::Communicator* Ranks = nullptr;
+  int RanksHere = 1; // of them on this machine, which share its memory
+  int Threads = 0;   // NumberOfThreads, or this process's share of the machine's; 0: all
 };
 
 /// What it computed.

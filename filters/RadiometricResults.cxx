@@ -96,8 +96,13 @@ Array* AddColumn(vtkTable* table, const char* name)
 } // namespace
 
 void RadiometricResults::AddArrays(const std::vector<Result::Quantity>& quantities,
-  std::size_t first, vtkIdType count, vtkFieldData* data, bool empty) const
+  std::size_t first, const std::vector<std::int32_t>& numbers, vtkIdType count,
+  vtkFieldData* data) const
 {
+  const auto at = [&](vtkIdType i) {
+    return numbers.empty() ? static_cast<std::ptrdiff_t>(first) + i
+                           : static_cast<std::ptrdiff_t>(numbers[static_cast<std::size_t>(i)]);
+  };
   const auto add = [&](const std::string& name, const std::vector<double>& values, bool photometric) {
     const int components = photometric ? 1 : this->Bands;
     vtkNew<vtkDoubleArray> array;
@@ -106,7 +111,7 @@ void RadiometricResults::AddArrays(const std::vector<Result::Quantity>& quantiti
     array->SetNumberOfTuples(count);
     for (vtkIdType i = 0; i < count; ++i)
     {
-      const double* tuple = empty ? nullptr : &values[(first + i) * this->Bands];
+      const double* tuple = at(i) < 0 ? nullptr : &values[at(i) * this->Bands];
       if (photometric)
       {
         array->SetValue(
@@ -148,14 +153,14 @@ void RadiometricResults::WriteSurface(const Result& result,
     leaf->ShallowCopy(carrier.Data ? carrier.Data : block.Data);
     if (carrier.Data)
     {
-      this->AddArrays(result.Points, carrier.First, leaf->GetNumberOfPoints(),
-        leaf->GetPointData(), result.Points.empty());
+      this->AddArrays(result.Points, carrier.First, carrier.Numbers, leaf->GetNumberOfPoints(),
+        leaf->GetPointData());
       leaf->GetPointData()->SetActiveScalars(names::Irradiance);
     }
     else
     {
       this->AddArrays(
-        result.Cells, block.FirstCell, block.Cells, leaf->GetCellData(), result.Cells.empty());
+        result.Cells, block.FirstCell, block.Numbers, block.Cells, leaf->GetCellData());
       leaf->GetCellData()->SetActiveScalars(names::Irradiance);
     }
     this->AddFieldData(result, leaf);

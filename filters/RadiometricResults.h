@@ -4,7 +4,10 @@
 #include "RadiometricJob.h"
 #include "SceneAdapter.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 class SurfacePoints;
 class vtkCompositeDataSet;
@@ -35,8 +38,10 @@ public:
   void WriteConvergence(const Result& result, vtkTable* table) const;
 
 private:
+  /// `numbers`: where each item's value is (below 0: it has none); empty: one after the other from
+  /// `first`.
   void AddArrays(const std::vector<Result::Quantity>& quantities, std::size_t first,
-    vtkIdType count, vtkFieldData* data, bool empty) const;
+    const std::vector<std::int32_t>& numbers, vtkIdType count, vtkFieldData* data) const;
   void AddFieldData(const Result& result, vtkDataObject* output) const;
 
   int Bands;

@@ -12,9 +12,12 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <unordered_map>
+#include <utility>
 
 namespace
 {
@@ -42,43 +45,61 @@ public:
     }
   }
 
-  /// `first`, `end`: the block's pieces. Appends to `order` the piece of each cell of the output.
-  vtkSmartPointer<vtkPolyData> Refine(
-    std::size_t first, std::size_t end, std::vector<std::size_t>& order)
+  /// `order` gets the piece of each cell of the output (-1: none).
+  vtkSmartPointer<vtkPolyData> Refine(std::vector<std::int32_t>& order)
   {
     vtkPolyData* data = this->Source.Data;
     const vtkIdType beforePolys = data->GetNumberOfVerts() + data->GetNumberOfLines();
     const vtkIdType beforeStrips = beforePolys + data->GetNumberOfPolys();
     vtkNew<vtkCellArray> polys;
     vtkNew<vtkCellArray> strips;
-    std::vector<std::size_t> wholeStrips;
+    std::vector<std::int32_t> wholeStrips;
+    std::vector<vtkIdType> stripCells;
+    std::vector<vtkIdType> cells; // of the block, that those of the output come from
     vtkNew<vtkIdList> ids;
-    for (std::size_t piece = first; piece < end; ++piece)
-    {
-      const vtkIdType cell = this->CellOf(piece);
+    const auto add = [&](vtkIdType cell, std::int32_t piece) {
       if (cell < beforePolys)
       {
         order.push_back(piece);
-        continue;
+        cells.push_back(cell);
+        return;
       }
       data->GetCellPoints(cell, ids);
-      if (!this->Pieces.Whole[piece])
-      {
-        this->AddPiece(piece, ids, polys);
-        order.push_back(piece);
-      }
-      else if (cell < beforeStrips)
-      {
-        polys->InsertNextCell(ids);
-        order.push_back(piece);
-      }
-      else
+      const bool cut = piece >= 0 && !this->Pieces.Whole[static_cast<std::size_t>(piece)];
+      if (!cut && cell >= beforeStrips)
       {
         strips->InsertNextCell(ids);
         wholeStrips.push_back(piece);
+        stripCells.push_back(cell);
+        return;
+      }
+      if (cut)
+      {
+        this->AddPiece(static_cast<std::size_t>(piece), ids, polys);
+      }
+      else
+      {
+        polys->InsertNextCell(ids);
+      }
+      order.push_back(piece);
+      cells.push_back(cell);
+    };
+    for (vtkIdType cell = 0; cell < this->Source.Cells; ++cell)
+    {
+      const std::int32_t number = this->Source.Number(cell);
+      const auto range =
+        std::equal_range(this->Pieces.Cell.begin(), this->Pieces.Cell.end(), number);
+      if (range.first == range.second)
+      {
+        add(cell, -1);
+      }
+      for (auto piece = range.first; piece != range.second; ++piece)
+      {
+        add(cell, static_cast<std::int32_t>(piece - this->Pieces.Cell.begin()));
       }
     }
     order.insert(order.end(), wholeStrips.begin(), wholeStrips.end());
+    cells.insert(cells.end(), stripCells.begin(), stripCells.end());
 
     auto output = vtkSmartPointer<vtkPolyData>::New();
     output->SetPoints(this->Points);
@@ -87,17 +108,11 @@ public:
     output->SetPolys(polys);
     output->SetStrips(strips);
     output->GetFieldData()->ShallowCopy(data->GetFieldData());
-    this->CopyCellData(output, order, order.size() - (end - first));
+    this->CopyCellData(output, cells);
     return output;
   }
 
 private:
-  vtkIdType CellOf(std::size_t piece) const
-  {
-    return static_cast<vtkIdType>(this->Pieces.Cell[piece]) -
-      static_cast<vtkIdType>(this->Source.FirstCell);
-  }
-
   void AddPiece(std::size_t piece, vtkIdList* cell, vtkCellArray* polys)
   {
     // The corners of the cell stay its points; others are new.
@@ -132,10 +147,9 @@ private:
     }
   }
 
-  void CopyCellData(
-    vtkPolyData* output, const std::vector<std::size_t>& order, std::size_t first) const
+  void CopyCellData(vtkPolyData* output, const std::vector<vtkIdType>& origin) const
   {
-    const auto cells = static_cast<vtkIdType>(order.size() - first);
+    const auto cells = static_cast<vtkIdType>(origin.size());
     vtkCellData* from = this->Source.Data->GetCellData();
     vtkCellData* to = output->GetCellData();
     to->CopyAllOn();
@@ -145,7 +159,7 @@ private:
     original->SetNumberOfTuples(cells);
     for (vtkIdType c = 0; c < cells; ++c)
     {
-      const vtkIdType cell = this->CellOf(order[first + static_cast<std::size_t>(c)]);
+      const vtkIdType cell = origin[static_cast<std::size_t>(c)];
       to->CopyData(from, cell, c);
       original->SetValue(c, cell);
     }
@@ -160,50 +174,22 @@ private:
   std::unordered_map<std::int32_t, vtkIdType> New;
 };
 
-/// Brings values (items x bands) into another order.
-void Reorder(std::vector<double>& values, const std::vector<std::size_t>& order, std::size_t bands)
-{
-  std::vector<double> sorted;
-  sorted.reserve(order.size() * bands);
-  for (const std::size_t item : order)
-  {
-    sorted.insert(sorted.end(), values.begin() + static_cast<std::ptrdiff_t>(item * bands),
-      values.begin() + static_cast<std::ptrdiff_t>((item + 1) * bands));
-  }
-  values.swap(sorted);
-}
-
 } // namespace
 
 std::vector<SceneAdapter::Block> RefineSurface(const SceneAdapter& adapter,
-  const radiometry::Scene& scene, double metersPerUnit, vtkRadiometricFilter::Result& result)
+  const radiometry::Scene& scene, double metersPerUnit, const radiometry::ShadowPieces& pieces)
 {
-  std::vector<SceneAdapter::Block> blocks = adapter.Blocks();
-  std::vector<std::size_t> order;
-  std::size_t piece = 0;
+  std::vector<SceneAdapter::Block> blocks = adapter.OwnBlocks();
   for (SceneAdapter::Block& block : blocks)
   {
-    const std::size_t first = piece;
-    const std::size_t cellsEnd = block.FirstCell + static_cast<std::size_t>(block.Cells);
-    while (piece < result.Pieces.Size() &&
-      static_cast<std::size_t>(result.Pieces.Cell[piece]) < cellsEnd)
-    {
-      ++piece;
-    }
     if (block.Sensors)
     {
       continue; // no surface; its values are at points
     }
-    const std::size_t firstCell = order.size();
-    block.Data = BlockRefiner(block, result.Pieces, scene, metersPerUnit).Refine(first, piece, order);
-    block.FirstCell = firstCell;
+    std::vector<std::int32_t> order;
+    block.Data = BlockRefiner(block, pieces, scene, metersPerUnit).Refine(order);
     block.Cells = block.Data->GetNumberOfCells();
-  }
-  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
-  for (vtkRadiometricFilter::Result::Quantity& q : result.Cells)
-  {
-    Reorder(q.Values, order, bands);
-    Reorder(q.Errors, order, bands);
+    block.Numbers = std::move(order);
   }
   return blocks;
 }

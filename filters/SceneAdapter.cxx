@@ -2,6 +2,7 @@
 #include "SceneAdapter.h"
 
 #include "LightPolyData.h"
+#include "SceneGathering.h"
 #include "radiometry/geometry/PolygonTriangles.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace names = radiometry::names;
 using radiometry::InputError;
@@ -34,7 +36,8 @@ namespace
 {
 
 /// The leaves of any data object as polydata.
-void Collect(vtkDataObject* data, const std::string& name, std::vector<SceneAdapter::Block>& blocks)
+void Collect(vtkDataObject* data, const std::string& name, std::int64_t leaf,
+  std::vector<SceneAdapter::Block>& blocks)
 {
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
@@ -42,12 +45,14 @@ void Collect(vtkDataObject* data, const std::string& name, std::vector<SceneAdap
     int index = 0;
     for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
     {
-      Collect(iterator->GetCurrentDataObject(), "block " + std::to_string(index++) + ", ", blocks);
+      Collect(iterator->GetCurrentDataObject(), "block " + std::to_string(index++) + ", ",
+        leaf + iterator->GetCurrentFlatIndex(), blocks);
     }
     return;
   }
   SceneAdapter::Block block;
   block.Name = name;
+  block.Leaf = leaf;
   if (auto* polydata = vtkPolyData::SafeDownCast(data))
   {
     block.Data = polydata;
@@ -129,15 +134,18 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
     data->GetPoint(i, p);
     out.Points[i] = { p[0], p[1], p[2] };
   }
-  vtkIdType cell = static_cast<vtkIdType>(block.FirstCell) + data->GetNumberOfVerts() +
-    data->GetNumberOfLines();
+  vtkIdType cell = data->GetNumberOfVerts() + data->GetNumberOfLines();
   const auto polygons = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
   for (polygons->GoToFirstCell(); !polygons->IsDoneWithTraversal(); polygons->GoToNextCell(), ++cell)
   {
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
     polygons->GetCurrentCell(n, ids);
-    CheckIds(block, "Polys", cell - static_cast<vtkIdType>(block.FirstCell), ids, n, count);
+    CheckIds(block, "Polys", cell, ids, n, count);
+    if (block.Number(cell) < 0)
+    {
+      continue;
+    }
     for (vtkIdType k = 0; k < n; ++k)
     {
       const Vec3& p = out.Points[ids[k]];
@@ -147,7 +155,7 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
           !std::isfinite(p.x) ? p.x : (!std::isfinite(p.y) ? p.y : p.z), "finite coordinates");
       }
     }
-    AddPolygon(ids, n, static_cast<std::int32_t>(cell), out);
+    AddPolygon(ids, n, block.Number(cell), out);
   }
   const auto strips = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
   for (strips->GoToFirstCell(); !strips->IsDoneWithTraversal(); strips->GoToNextCell(), ++cell)
@@ -155,16 +163,71 @@ Triangulation Triangulate(const SceneAdapter::Block& block)
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
     strips->GetCurrentCell(n, ids);
-    CheckIds(block, "Strips", cell - static_cast<vtkIdType>(block.FirstCell), ids, n, count);
+    CheckIds(block, "Strips", cell, ids, n, count);
+    if (block.Number(cell) < 0)
+    {
+      continue;
+    }
     for (vtkIdType k = 0; k + 2 < n; ++k)
     {
       const vtkIdType a = k % 2 == 0 ? ids[k] : ids[k + 1];
       const vtkIdType b = k % 2 == 0 ? ids[k + 1] : ids[k];
       const vtkIdType triangle[3] = { a, b, ids[k + 2] };
-      AddPolygon(triangle, 3, static_cast<std::int32_t>(cell), out);
+      AddPolygon(triangle, 3, block.Number(cell), out);
     }
   }
   return out;
+}
+
+/// Inputs of one port follow each other by this much in Block::Leaf, which their own leaves stay below.
+constexpr int InputShift = 40;
+
+/// Whether an earlier part of the same light data, of another process, has the same ambient light.
+bool IsRepeated(const std::vector<SceneAdapter::Block>& blocks, const SceneAdapter::Block& block,
+  vtkDataArray* array)
+{
+  const auto same = [&](vtkDataArray* other) {
+    bool equal = other && other->GetNumberOfValues() == array->GetNumberOfValues() &&
+      other->GetNumberOfComponents() == array->GetNumberOfComponents();
+    const int components = array->GetNumberOfComponents();
+    for (vtkIdType k = 0; equal && k < array->GetNumberOfValues(); ++k)
+    {
+      equal = other->GetComponent(k / components, k % components) ==
+        array->GetComponent(k / components, k % components);
+    }
+    return equal;
+  };
+  return std::any_of(blocks.data(), &block, [&](const SceneAdapter::Block& earlier) {
+    return earlier.Gathered && earlier.Leaf == block.Leaf &&
+      same(vtkDataArray::SafeDownCast(
+        earlier.Data->GetFieldData()->GetAbstractArray(names::GlobalAmbient)));
+  });
+}
+
+/// Brings the triangles that were gathered from several processes into the order of their cells.
+void SortByCell(radiometry::Scene& scene, std::vector<std::int32_t>& cellOfOccluder)
+{
+  std::vector<std::size_t> order(scene.Triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  const auto middle = static_cast<std::ptrdiff_t>(scene.ReceiverTriangles);
+  std::stable_sort(order.begin(), order.begin() + middle, [&](std::size_t a, std::size_t b) {
+    return scene.TriangleCell[a] < scene.TriangleCell[b];
+  });
+  std::stable_sort(order.begin() + middle, order.end(), [&](std::size_t a, std::size_t b) {
+    return cellOfOccluder[a - scene.ReceiverTriangles] < cellOfOccluder[b - scene.ReceiverTriangles];
+  });
+  const auto triangles = scene.Triangles;
+  const auto cells = scene.TriangleCell;
+  const auto occluders = cellOfOccluder;
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    scene.Triangles[k] = triangles[order[k]];
+    scene.TriangleCell[k] = cells[order[k]];
+    if (k >= scene.ReceiverTriangles)
+    {
+      cellOfOccluder[k - scene.ReceiverTriangles] = occluders[order[k] - scene.ReceiverTriangles];
+    }
+  }
 }
 
 /// The field array ObjectTransform of an object, if it has one.
@@ -193,7 +256,7 @@ bool ReadTransform(vtkDataObject* data, const std::string& name, radiometry::Aff
 /// How far rounding to single precision may have moved points; 0 where they are in double.
 double SinglePrecision(vtkPolyData* data)
 {
-  if (!data->GetPoints() || data->GetPoints()->GetDataType() != VTK_FLOAT)
+  if (data->GetNumberOfPoints() == 0 || data->GetPoints()->GetDataType() != VTK_FLOAT)
   {
     return 0.0;
   }
@@ -219,7 +282,7 @@ void SceneAdapter::SetFrames(const radiometry::Affine& object, const radiometry:
 void SceneAdapter::AddSurface(vtkDataObject* data)
 {
   const std::size_t first = this->Surface.size();
-  Collect(data, "", this->Surface);
+  Collect(data, "", 0, this->Surface);
   const auto read = [&](vtkDataObject* carrier, const std::string& name) {
     radiometry::Affine matrix;
     if (ReadTransform(carrier, name + names::ObjectTransform, matrix))
@@ -242,33 +305,42 @@ void SceneAdapter::AddSurface(vtkDataObject* data)
 
 void SceneAdapter::AddOccluder(vtkDataObject* data)
 {
-  Collect(data, "occluder ", this->Occluders);
+  Collect(data, "occluder ", this->OccluderInputs++ << InputShift, this->Occluders);
 }
 
 void SceneAdapter::AddLights(vtkDataObject* data)
 {
-  const std::size_t first = this->Lights.size();
-  Collect(data, "lights, ", this->Lights);
-  const auto see = [&](vtkDataObject* carrier, const std::string& name) {
-    auto* array = vtkDataArray::SafeDownCast(
-      carrier->GetFieldData()->GetAbstractArray(names::GlobalAmbient));
-    if (array)
-    {
-      this->AmbientArrays.emplace_back(name + names::GlobalAmbient, array);
-    }
-  };
+  const std::int64_t leaf = this->LightInputs++ << InputShift;
   if (vtkCompositeDataSet::SafeDownCast(data))
   {
-    see(data, "lights, ");
+    // Its own field data, as of a block without lights.
+    Block whole;
+    whole.Data = vtkSmartPointer<vtkPolyData>::New();
+    whole.Data->GetFieldData()->ShallowCopy(data->GetFieldData());
+    whole.Name = "lights, ";
+    whole.Leaf = leaf;
+    this->Lights.push_back(whole);
   }
-  for (std::size_t k = first; k < this->Lights.size(); ++k)
+  Collect(data, "lights, ", leaf, this->Lights);
+}
+
+void SceneAdapter::FindAmbient()
+{
+  this->AmbientArrays.clear();
+  for (const Block& block : this->Lights)
   {
-    see(this->Lights[k].Data, this->Lights[k].Name);
+    auto* array = vtkDataArray::SafeDownCast(
+      block.Data->GetFieldData()->GetAbstractArray(names::GlobalAmbient));
+    if (array && !IsRepeated(this->Lights, block, array))
+    {
+      this->AmbientArrays.emplace_back(block.Name + names::GlobalAmbient, array);
+    }
   }
 }
 
 radiometry::Scene SceneAdapter::Build()
 {
+  this->FindAmbient();
   const int bands = this->FindBands();
   SceneBuilder builder;
   std::size_t cells = 0;
@@ -294,7 +366,13 @@ radiometry::Scene SceneAdapter::Build()
       this->MetersPerUnit, block.Name + "Points");
   }
   std::vector<std::int32_t> cellOfOccluder;
-  radiometry::Scene scene = builder.Finish(cells, &cellOfOccluder);
+  radiometry::Scene scene =
+    builder.Finish(this->Gathered ? this->GatheredCells : cells, &cellOfOccluder);
+  if (this->Gathered)
+  {
+    cells = this->GatheredCells;
+    SortByCell(scene, cellOfOccluder);
+  }
   covered.assign(cells, 0);
   for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
   {
@@ -306,9 +384,11 @@ radiometry::Scene SceneAdapter::Build()
   this->ReadMaterials(scene);
   this->ReadTransmittance(cellOfOccluder, scene);
   this->ReadAmbient(scene);
+  LightsOnce once;
   for (const Block& block : this->Lights)
   {
-    for (const radiometry::LightRecord& record : ReadLights(block.Data, bands, block.Name))
+    for (const radiometry::LightRecord& record :
+      once.New(block, ReadLights(block.Data, bands, block.Name)))
     {
       scene.Lights.push_back(
         radiometry::ToLight(radiometry::PlaceLight(record, this->ObjectTransform, this->View),

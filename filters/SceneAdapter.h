@@ -8,11 +8,13 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+class ControllerCommunicator;
 class vtkDataObject;
 class vtkPolyData;
 
@@ -31,6 +33,21 @@ public:
     vtkIdType Cells = 0;
     bool Sensors = false; // vertices with normals and no surface
     std::string Name;     // prefix for messages; empty for a lone block
+    std::int64_t Leaf = 0; // which part of the input it is, of several processes' parts alike
+    /// Where cells are numbered over several processes: the number of each; -1: of none of the scene.
+    std::vector<std::int32_t> Numbers;
+    /// The same of the points of a sensor grid, among all points that get values.
+    std::vector<std::int32_t> PointNumbers;
+    bool Gathered = false; // Numbers count
+    std::size_t Part = 0;  // of an own block: its place among those of all processes
+
+    /// The number of a cell in the scene.
+    std::int32_t Number(vtkIdType cell) const
+    {
+      return this->Gathered ? this->Numbers[static_cast<std::size_t>(cell)]
+                            : static_cast<std::int32_t>(this->FirstCell) +
+          static_cast<std::int32_t>(cell);
+    }
   };
 
   SceneAdapter(double metersPerUnit, bool twoSided, double diffuseReflectance)
@@ -53,10 +70,19 @@ public:
   /// Light data: polydata or a composite of it.
   void AddLights(vtkDataObject* data);
 
+  /// The scene is then that of all ranks, each of which has handed in its own parts; also cells
+  /// that are marked as copies of others (vtkGhostType) are sorted out. `ranks` may be null.
+  /// Of other arrays of cells than those of materials only these come along.
+  void Gather(const ControllerCommunicator* ranks);
+  std::vector<std::string> FurtherArrays;
+
   /// Checks everything and makes the scene.
   radiometry::Scene Build();
 
   const std::vector<Block>& Blocks() const { return this->Surface; }
+  bool IsGathered() const { return this->Gathered; }
+  /// Those of this process, which get results.
+  const std::vector<Block>& OwnBlocks() const { return this->Gathered ? this->Own : this->Surface; }
   /// Cells that got no triangle: verts, lines, and those without area.
   std::size_t CellsWithoutArea() const { return this->Empty; }
 
@@ -65,12 +91,20 @@ private:
   void ReadTransmittance(
     const std::vector<std::int32_t>& occluderCells, radiometry::Scene& scene) const;
   void ReadAmbient(radiometry::Scene& scene) const;
+  void FindAmbient();
+  void GatherTransform(const ControllerCommunicator* ranks);
   int FindBands() const;
 
   double MetersPerUnit;
   bool TwoSided;
   double DiffuseReflectance;
   std::vector<Block> Surface;
+  std::vector<Block> Own; // of Surface, once it was gathered
+  bool Gathered = false;
+  std::size_t GatheredCells = 0;
+  std::size_t GatheredOccluders = 0; // cells of them
+  std::int64_t LightInputs = 0;
+  std::int64_t OccluderInputs = 0;
   std::vector<Block> Occluders;
   std::vector<Block> Lights;
   std::size_t Empty = 0;

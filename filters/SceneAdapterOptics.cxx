@@ -78,7 +78,10 @@ void ReadArray(const std::vector<SceneAdapter::Block>& blocks, const std::string
         {
           throw InputError(block.Name + name, whole ? 0 : c, value, "a finite number");
         }
-        values[(block.FirstCell + c) * bands + b] = value;
+        if (block.Number(c) >= 0)
+        {
+          values[static_cast<std::size_t>(block.Number(c)) * bands + b] = value;
+        }
       }
     }
   }
@@ -127,9 +130,9 @@ void CheckSums(
   {
     for (vtkIdType c = 0; c < block.Cells; ++c)
     {
-      for (int b = 0; b < optics.Bands; ++b)
+      for (int b = 0; b < optics.Bands && block.Number(c) >= 0; ++b)
       {
-        const std::size_t at = (block.FirstCell + c) * optics.Bands + b;
+        const std::size_t at = static_cast<std::size_t>(block.Number(c)) * optics.Bands + b;
         for (int side = 0; side < 2; ++side)
         {
           const double sum = optics.DiffuseReflectance[side][at] +
@@ -249,7 +252,10 @@ void SceneAdapter::ReadMaterials(radiometry::Scene& scene) const
       const bool whole = array->GetNumberOfTuples() == 1 && block.Cells != 1;
       for (vtkIdType c = 0; c < block.Cells; ++c)
       {
-        optics.TwoSided[block.FirstCell + c] = array->GetComponent(whole ? 0 : c, 0) != 0.0;
+        if (block.Number(c) >= 0)
+        {
+          optics.TwoSided[block.Number(c)] = array->GetComponent(whole ? 0 : c, 0) != 0.0;
+        }
       }
     }
   }
@@ -265,6 +271,7 @@ void SceneAdapter::ReadTransmittance(
   {
     cells += static_cast<std::size_t>(block.Cells);
   }
+  cells = this->Gathered ? this->GatheredOccluders : cells;
   std::vector<double> occluders;
   ReadArray(this->Occluders, names::Transmittance, 1.0, 0.0, scene.Optics.Bands, cells * bands,
     occluders);

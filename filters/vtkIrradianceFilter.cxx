@@ -18,7 +18,8 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   options.RelativeTolerance = this->RelativeTolerance;
   options.AbsoluteTolerance = this->AbsoluteTolerance;
   options.TimeBudget = this->TimeBudget;
-  options.Threads = this->NumberOfThreads;
+  options.Threads = job.Threads;
+  options.Ranks = job.Ranks;
   options.Cells = job.WantCells;
   options.Switches = job.Switches;
   options.RefineShadowBoundaries = this->RefineShadowBoundaries && job.WantCells;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiometricFilter.h"
 
+#include "ControllerCommunicator.h"
 #include "RadiometricJob.h"
 #include "RadiometricResults.h"
 #include "RefinedSurface.h"
@@ -15,6 +16,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
@@ -90,6 +92,23 @@ vtkRadiometricFilter::vtkRadiometricFilter()
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(3);
+  this->Controller = vtkMultiProcessController::GetGlobalController();
+}
+
+vtkRadiometricFilter::~vtkRadiometricFilter() = default;
+
+void vtkRadiometricFilter::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Controller != controller)
+  {
+    this->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkRadiometricFilter::GetController()
+{
+  return this->Controller;
 }
 
 void vtkRadiometricFilter::AddLightsConnection(vtkAlgorithmOutput* lights)
@@ -183,6 +202,7 @@ int vtkRadiometricFilter::RequestData(
     convergence->Initialize();
   };
   clear();
+  const auto ranks = ControllerCommunicator::Make(this->Controller);
   try
   {
     const double infinite = std::numeric_limits<double>::max();
@@ -208,10 +228,14 @@ int vtkRadiometricFilter::RequestData(
     {
       adapter.AddOccluder(vtkDataObject::GetData(inputs[2], k));
     }
+    adapter.Gather(ranks.get());
     const radiometry::Scene scene = adapter.Build();
 
     FilterMonitor monitor(this);
     Job job{ scene, {}, {}, true, &monitor };
+    job.Ranks = ranks.get();
+    job.RanksHere = ranks ? ranks->RanksHere() : 1;
+    job.Threads = ThreadsOfRank(ranks.get(), this->NumberOfThreads);
     for (const int choice : { this->Occlusion, this->Interreflection, this->SpecularTransport,
            this->Transmission, this->BackFaces, this->Emission, this->Environment, this->SpotShape,
            this->Attenuation })
@@ -244,21 +268,34 @@ int vtkRadiometricFilter::RequestData(
     const RadiometricResults writer(scene.Optics.Bands,
       this->Photometric ? this->LuminousEfficacy : 0.0, this->GetClassName(), options.str());
     writer.WriteSurface(result,
-      result.Pieces.Size() > 0 ? RefineSurface(adapter, scene, this->MetersPerUnit, result)
-                               : adapter.Blocks(),
+      result.Pieces.Size() > 0 ? RefineSurface(adapter, scene, this->MetersPerUnit, result.Pieces)
+                               : adapter.OwnBlocks(),
       points, output, input);
-    writer.WriteEffects(result, effects);
-    writer.WriteConvergence(result, convergence);
+    if (!ranks || ranks->Rank() == 0) // tables of all ranks are put together by who reads them
+    {
+      writer.WriteEffects(result, effects);
+      writer.WriteConvergence(result, convergence);
+    }
+    if (ranks)
+    {
+      ranks->Finish();
+    }
   }
   catch (const radiometry::Aborted&)
   {
     clear();
+    const std::string failure = ranks ? ranks->Fail("") : std::string();
+    if (!failure.empty()) // of another rank
+    {
+      vtkErrorMacro(<< failure);
+      return 0;
+    }
     return 1;
   }
   catch (const std::exception& error)
   {
     clear();
-    vtkErrorMacro(<< error.what());
+    vtkErrorMacro(<< (ranks ? ranks->Fail(error.what()) : std::string(error.what())));
     return 0;
   }
   this->UpdateProgress(1.0);

@@ -4,8 +4,10 @@
 
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkRadiometryFiltersModule.h"
+#include "vtkSmartPointer.h"
 
 class vtkMatrix4x4;
+class vtkMultiProcessController;
 
 /// What the simulating filters share: ports, switches, checks and the writing of results.
 ///   Ports   0 surface; 1 lights (repeatable, optional); 2 occluders (repeatable, optional).
@@ -100,7 +102,7 @@ public:
   vtkGetMacro(MetersPerUnit, double);
   ///@}
   ///@{
-  /// Threads to use; 0 (default): all. The result has the same bytes for any number.
+  /// Threads to use; 0 (default): all, of each of several ranks its share of the machine's. The result has the same bytes for any number.
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
@@ -129,6 +131,13 @@ public:
   /// LuminousExposure [lx s]. Default 0: none. Finite, at least 0.
   vtkSetMacro(ExposureTime, double);
   vtkGetMacro(ExposureTime, double);
+  ///@}
+  ///@{
+  /// The processes that hold the pieces of the scene and compute it together (docs/scaling.md); all of
+  /// them must update the filter. Default: the global controller, so the ranks of pvbatch and
+  /// pvserver. Null: this process alone.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
   ///@}
   ///@{
   /// Irradiance that every point gets from all around, in each band, never in shadow [W/m^2].
@@ -184,7 +193,7 @@ public:
 
 protected:
   vtkRadiometricFilter();
-  ~vtkRadiometricFilter() override = default;
+  ~vtkRadiometricFilter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -224,6 +233,7 @@ protected:
   int Environment = AUTO;
   int SpotShape = AUTO;
   int Attenuation = AUTO;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
   vtkRadiometricFilter(const vtkRadiometricFilter&) = delete;

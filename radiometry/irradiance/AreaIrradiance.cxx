@@ -57,7 +57,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
     effort.AbsoluteTolerance = options.AbsoluteTolerance;
     effort.Work = work;
     effort.Hasty = hasty;
-    const AreaLight light = area.At(receivers[i], i, before.data() + i * bands, effort);
+    const AreaLight light = area.At(receivers[i], options.NumberOf(i), before.data() + i * bands, effort);
     for (std::size_t b = 0; b < bands; ++b)
     {
       result.Irradiance[i * bands + b] = before[i * bands + b] + light.Value[b];

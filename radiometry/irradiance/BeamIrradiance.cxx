@@ -196,7 +196,7 @@ private:
     effort.AbsoluteTolerance = this->Options.AbsoluteTolerance;
     LightSum& sum = worker.Sum;
     this->Rays += sum.Compute(block, block.Bounds(), block.Size(), worker.Active.data(), effort,
-      Hash64(ids[0], round.Lights));
+      Hash64(this->Options.NumberOf(ids[0]), round.Lights));
     bool open = false;
     for (std::size_t i = 0; i < block.Size(); ++i)
     {

@@ -21,4 +21,9 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<SurfacePoint>& points, const DirectOptions& options,
   const StageProgress& stage, ConvergenceRecord* record, DirectResult& result);
 
+/// Neighbouring points in groups whose light is computed together. With DirectOptions::Numbers the
+/// points are in that order already.
+void PointGroups(const std::vector<SurfacePoint>& points, std::vector<std::uint32_t>& order,
+  std::vector<std::uint32_t>& first);
+
 } // namespace radiometry

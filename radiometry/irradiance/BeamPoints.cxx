@@ -323,6 +323,18 @@ struct Worker
 
 } // namespace
 
+void PointGroups(const std::vector<SurfacePoint>& points, std::vector<std::uint32_t>& order,
+  std::vector<std::uint32_t>& first)
+{
+  order = SpatialOrder(points);
+  first.clear();
+  for (std::size_t k = 0; k < points.size(); k += PointBlock::Most)
+  {
+    first.push_back(static_cast<std::uint32_t>(k));
+  }
+  first.push_back(static_cast<std::uint32_t>(points.size()));
+}
+
 void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<SurfacePoint>& points, const DirectOptions& options,
   const StageProgress& stage, ConvergenceRecord* record, DirectResult& result)
@@ -335,7 +347,12 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
   {
     return;
   }
-  const std::vector<std::uint32_t> order = SpatialOrder(points);
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  if (!options.Numbers)
+  {
+    order = SpatialOrder(points);
+  }
   const std::size_t blocks = (points.size() + PointBlock::Most - 1) / PointBlock::Most;
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers(
     [&, extent = Extent(scene)] {
@@ -365,7 +382,7 @@ void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
     }();
     LightSum& sum = worker.Sum;
     rays += sum.Compute(worker.Block, worker.Block.Bounds(), count, all.data(), effort,
-      Hash64(ids[0], most));
+      Hash64(options.NumberOf(ids[0]), most));
     for (std::size_t i = 0; i < count; ++i)
     {
       std::copy_n(&sum.Value[i * bands], bands, &result.Irradiance[ids[i] * bands]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/scene/Communicator.h"
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
@@ -28,6 +29,25 @@ struct DirectOptions
   bool Emission = false;    // true: emitting surfaces of the scene light it, too
   bool Transmission = true; // false: surfaces with Transmittance are opaque
   int Threads = 0;          // 0: all
+  const Communicator* Ranks = nullptr; // that share the receivers; null: this process alone
+  /// Numbers of the receivers, which key their samples, where they are some of more (a rank's share,
+  /// group by group); null: their places in the list.
+  const std::uint32_t* Numbers = nullptr;
+
+  std::uint64_t NumberOf(std::size_t receiver) const
+  {
+    return this->Numbers ? this->Numbers[receiver] : receiver;
+  }
+};
+
+/// Sums over a rank's receivers when a round of work ended.
+struct DirectRound
+{
+  double Seconds = 0.0;
+  double Value = 0.0;  // of irradiance, weighted
+  double Error = 0.0;  // the same
+  double Weight = 0.0; // receivers x bands
+  double Rays = 0.0;
 };
 
 struct DirectResult
@@ -43,12 +63,16 @@ struct DirectResult
   double PeakUnshadowed = 0.0;    // greatest value, were nothing in the way, of any band
   std::int64_t Rays = 0;
   bool TimedOut = false;
+  bool KeepRounds = false; // Rounds are kept, to be put together with other ranks'
+  std::vector<DirectRound> Rounds;
 };
 
 /// Direct irradiance, averaged over each patch, from the enabled lights of the scene.
 ///   Model   E = E_ambient + sum over lights: what BeamIrradiance.h, AreaIrradiance.h and
 ///           SkyIrradiance.h say of each kind, in that order; their errors are independent
 ///   Bytes   the same for any number of threads
+///   Ranks   each computes its share of the receivers and gets the others' from them: the bytes are
+///           those of one process (with MeanShare up to the rounding of a mean). Collective
 DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage = {},
   ConvergenceRecord* record = nullptr);
@@ -58,8 +82,8 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   const std::vector<SurfacePoint>& points, const DirectOptions& options,
   const StageProgress& stage = {}, ConvergenceRecord* record = nullptr);
 
-/// Adds a row of area-weighted mean error to the record, which may be null.
-void RecordDirect(ConvergenceRecord* record, const DirectResult& result,
+/// Adds a row of area-weighted mean error to the record, which may be null, or to Rounds.
+void RecordDirect(ConvergenceRecord* record, DirectResult& result,
   const std::vector<double>& weights, const char* stage);
 
 } // namespace radiometry

@@ -2,8 +2,12 @@
 #include "radiometry/irradiance/EmitterIrradiance.h"
 
 #include "radiometry/irradiance/AreaStage.h"
+#include "radiometry/irradiance/ReceiverShare.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <numeric>
 
 namespace radiometry
 {
@@ -29,18 +33,32 @@ EmitterResult Compute(const Scene& scene, const OcclusionScene& occluders,
   AreaEffort effort;
   effort.RelativeTolerance = options.RelativeTolerance;
   effort.Work = MostParts;
+  // Of several ranks each computes its share, at the places that these have in it.
+  std::vector<std::uint32_t> order, first;
+  std::unique_ptr<ReceiverShare> share;
+  if (options.Ranks)
+  {
+    PlainGroups(receivers.size(), order, first);
+    share = std::make_unique<ReceiverShare>(*options.Ranks, order, first);
+  }
   ParallelFor(
-    receivers.size(), options.Threads, stage,
-    [&](std::size_t i) {
+    share ? share->Size() : receivers.size(), options.Threads, stage,
+    [&](std::size_t k) {
+      const std::size_t i = share ? share->Begin()[k] : k;
       const AreaLight light = area.At(receivers[i], i, nothing.data(), effort);
-      std::copy(light.Value.begin(), light.Value.end(), &result.Irradiance[i * bands]);
-      std::copy(light.Error.begin(), light.Error.end(), &result.Error[i * bands]);
-      rays[i] = light.Rays;
+      std::copy(light.Value.begin(), light.Value.end(), &result.Irradiance[k * bands]);
+      std::copy(light.Error.begin(), light.Error.end(), &result.Error[k * bands]);
+      rays[k] = light.Rays;
     },
     1e-4);
-  for (const std::int64_t r : rays)
+  result.Rays = std::accumulate(rays.begin(), rays.end(), std::int64_t{ 0 });
+  if (share)
   {
-    result.Rays += r;
+    result.Irradiance.resize(share->Size() * bands);
+    result.Error.resize(share->Size() * bands);
+    result.Irradiance = share->Gather(result.Irradiance, bands);
+    result.Error = share->Gather(result.Error, bands);
+    options.Ranks->Sum(&result.Rays, 1);
   }
   return result;
 }

@@ -88,7 +88,7 @@ FieldValues AverageOver(std::size_t count, int bandCount, const std::vector<Patc
 }
 
 void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
-  EffectPlan& plan)
+  EffectPlan& plan, const Communicator* ranks)
 {
   const auto leftOut = [&](Effect effect) {
     return plan[effect].Present && !plan.Simulates(effect);
@@ -96,6 +96,7 @@ void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double pe
   DirectOptions bare;
   bare.Occlusion = false;
   bare.Threads = threads;
+  bare.Ranks = ranks;
   if (plan.LeavesOut() && peak < 0.0)
   {
     peak = ComputeDirectIrradiance(scene, occluders, MakePatches(scene, 0), bare).PeakUnshadowed;
@@ -155,6 +156,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   direct.Transmission = plan.Simulates(Effect::Transmission);
   direct.Emission = plan.Simulates(Effect::Emission);
   direct.Threads = options.Threads;
+  direct.Ranks = options.Ranks;
 
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;
   bool timedOut = false;
@@ -233,7 +235,7 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
       "; " + std::to_string(rays) + " rays for " + std::to_string(values) + " cells and points";
   }
 
-  BoundLeftOut(scene, occluders, peak, options.Threads, plan);
+  BoundLeftOut(scene, occluders, peak, options.Threads, plan, options.Ranks);
   for (int k = 0; k < EffectCount; ++k)
   {
     result.Effects.push_back(plan[static_cast<Effect>(k)]);

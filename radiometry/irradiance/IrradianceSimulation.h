@@ -25,6 +25,7 @@ struct IrradianceOptions
   bool RefineShadowBoundaries = false; // over the pieces into which shadows' edges cut the cells
   std::size_t PiecesPerCell = 1000;    // at most
   std::vector<EffectSwitch> Switches = std::vector<EffectSwitch>(EffectCount);
+  const Communicator* Ranks = nullptr; // that share the work; null: this process alone
 };
 
 /// Values with their errors, items x bands; empty where not computed.
@@ -62,8 +63,9 @@ FieldValues AverageOver(std::size_t count, int bands, const std::vector<Patch>& 
   const std::vector<float>& dropped = {});
 
 /// Bounds what a plan left out, from the greatest unshadowed irradiance that the run met (below 0:
-/// not known). What only the effects left out need is computed here, without a ray.
+/// not known). What only the effects left out need is computed here, without a ray; by `ranks`
+/// together where there are several.
 void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
-  EffectPlan& plan);
+  EffectPlan& plan, const Communicator* ranks = nullptr);
 
 } // namespace radiometry

@@ -162,7 +162,9 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
 {
   const ConvergenceRecord clock;
   const auto skies = MakeTables(scene);
-  if (skies.empty() || receivers.empty() || !options.Environment)
+  // Of several ranks all go through the same rounds, since they compare with the mean of all.
+  const Communicator* ranks = options.MeanShare > 0.0 ? options.Ranks : nullptr;
+  if (skies.empty() || (receivers.empty() && !ranks) || !options.Environment)
   {
     return;
   }
@@ -234,7 +236,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
       const bool sees = !hides || known != 0;
       if (!sees && !hasty)
       {
-        const std::uint64_t key = Hash64(SkySalt + s, static_cast<std::uint64_t>(i));
+        const std::uint64_t key = Hash64(SkySalt + s, options.NumberOf(i));
         FindVisibleShare(occluders, *skies[s], receiver, panes, key, samples, share);
         rays += share.Rays;
         sampled = true;
@@ -298,13 +300,27 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
         sum += weights[i] * result.Irradiance[i * bands + b] / static_cast<double>(bands);
       }
     }
-    return weight > 0.0 ? sum / weight : 0.0;
+    double sums[2] = { sum, weight };
+    if (ranks)
+    {
+      ranks->Sum(sums, 2);
+    }
+    return sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+  };
+  // Whether any rank has something left to do, and all have time.
+  const auto goesOn = [&](bool left) {
+    double state[2] = { left ? 1.0 : 0.0, expired ? 1.0 : 0.0 };
+    if (ranks)
+    {
+      ranks->Largest(state, 2);
+    }
+    return state[0] > 0.0 && state[1] == 0.0;
   };
 
   std::vector<std::size_t> todo(receivers.size());
   std::iota(todo.begin(), todo.end(), std::size_t{ 0 });
   double done = 0.15;
-  for (int round = 0; !todo.empty() && !expired; ++round)
+  for (int round = 0; goesOn(!todo.empty()); ++round)
   {
     const double next = done + 0.5 * (1.0 - done);
     ParallelFor(
@@ -346,7 +362,8 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
     RecordDirect(record, result, weights, "sky");
   }
   result.TimedOut = result.TimedOut || expired;
-  result.PeakUnshadowed += *std::max_element(unshadowed.begin(), unshadowed.end());
+  result.PeakUnshadowed +=
+    receivers.empty() ? 0.0 : *std::max_element(unshadowed.begin(), unshadowed.end());
   Report(stage.Listener, stage.End, stage.Name);
 }
 

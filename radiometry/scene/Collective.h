@@ -10,6 +10,9 @@
 namespace radiometry
 {
 
+/// What an exception says on a rank that could have gone on.
+inline constexpr char AnotherRankFailed[] = "another rank failed";
+
 /// Runs a rank's own part of a collective step. Where it throws on one rank (an abort, a lack of
 /// memory), it ends by an exception on all: the rank's own, or else Aborted, so that none waits for
 /// another. `ranks` null: runs it. Collective.
@@ -44,7 +47,7 @@ void Collectively(const Communicator* ranks, Part&& part)
   }
   if (failed[1] > 0.0)
   {
-    throw std::runtime_error("another rank failed");
+    throw std::runtime_error(AnotherRankFailed);
   }
   if (failed[0] > 0.0)
   {

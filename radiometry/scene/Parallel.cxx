@@ -10,12 +10,17 @@
 namespace radiometry
 {
 
+int AvailableThreads()
+{
+  return tbb::this_task_arena::max_concurrency();
+}
+
 void ParallelFor(std::size_t n, int threads, const StageProgress& stage,
   const std::function<void(std::size_t)>& body, double cost)
 {
   using clock = std::chrono::steady_clock;
   constexpr double roundSeconds = 0.1;
-  const int available = tbb::this_task_arena::max_concurrency();
+  const int available = AvailableThreads();
   tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
   const double workers = arena.max_concurrency();
 

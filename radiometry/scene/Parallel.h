@@ -26,4 +26,7 @@ struct StageProgress
 void ParallelFor(std::size_t n, int threads, const StageProgress& stage,
   const std::function<void(std::size_t)>& body, double cost = 1e-5);
 
+/// Threads that this process may use.
+int AvailableThreads();
+
 } // namespace radiometry
