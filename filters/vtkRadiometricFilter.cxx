@@ -228,6 +228,7 @@ int vtkRadiometricFilter::RequestData(
     {
       adapter.AddOccluder(vtkDataObject::GetData(inputs[2], k));
     }
+    adapter.FurtherArrays = this->CellArraysRead();
     adapter.Gather(ranks.get());
     const radiometry::Scene scene = adapter.Build();
 

@@ -6,6 +6,9 @@
 #include "vtkRadiometryFiltersModule.h"
 #include "vtkSmartPointer.h"
 
+#include <string>
+#include <vector>
+
 class vtkMatrix4x4;
 class vtkMultiProcessController;
 
@@ -204,6 +207,8 @@ protected:
 
   /// The subclass's physics: reads the job, calls the core, fills the result.
   virtual void Simulate(Job& job, Result& result) = 0;
+  /// Cell arrays of the surface that it reads beside those of materials.
+  virtual std::vector<std::string> CellArraysRead() const { return {}; }
 
   double RelativeTolerance = 0.01;
   double AbsoluteTolerance = 0.0;

@@ -75,11 +75,20 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   {
     vtksys::SystemInformation machine;
     machine.RunMemoryCheck();
-    options.MemoryLimit = static_cast<std::size_t>(0.5 * Mebibyte) * machine.GetTotalPhysicalMemory();
+    options.MemoryLimit = static_cast<std::size_t>(0.5 * Mebibyte) *
+      machine.GetTotalPhysicalMemory() / static_cast<std::size_t>(job.RanksHere);
+  }
+  if (job.Ranks)
+  {
+    // The least of all, so that they choose alike.
+    double negative = -static_cast<double>(options.MemoryLimit);
+    job.Ranks->Largest(&negative, 1);
+    options.MemoryLimit = static_cast<std::size_t>(-negative);
   }
   options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);
   options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
-  options.Threads = this->NumberOfThreads;
+  options.Threads = job.Threads;
+  options.Ranks = job.Ranks;
 
   if (!this->CacheOperator)
   {

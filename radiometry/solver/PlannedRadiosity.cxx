@@ -141,7 +141,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   {
     plan[stage == "direct light" ? Effect::Occlusion : Effect::Interreflection].Seconds += seconds;
   }
-  BoundLeftOut(scene, occluders, -1.0, options.Threads, plan);
+  BoundLeftOut(scene, occluders, -1.0, options.Threads, plan, options.Ranks);
   for (int k = 0; k < EffectCount; ++k)
   {
     out.Effects.push_back(plan[static_cast<Effect>(k)]);

@@ -143,7 +143,7 @@ void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& sta
     level.F = std::make_unique<DenseOperator>(
       this->Context.Geometry, this->Context.Occluders, level.Elements, exchange, stage);
   }
-  level.ExchangeSeconds = this->Result.Convergence.Elapsed() - begin;
+  level.ExchangeSeconds = this->Agreed(this->Result.Convergence.Elapsed() - begin);
 }
 
 RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const ElementSet& coarsest,

@@ -50,6 +50,7 @@ ExchangeOptions RadiosityContext::Exchange() const
   o.Occlusion = this->Options.Occlusion;
   o.MemoryLimit = this->Memory;
   o.Threads = this->Options.Threads;
+  o.Ranks = this->Options.Ranks;
   o.Seed = this->Options.Seed;
   return o;
 }
@@ -92,6 +93,7 @@ DirectOptions RadiosityContext::Direct(double secondsLeft) const
   o.Environment = this->Options.Environment;
   o.Transmission = this->Options.Transmission;
   o.Threads = this->Options.Threads;
+  o.Ranks = this->Options.Ranks;
   return o;
 }
 

@@ -39,9 +39,8 @@ RadiosityRun::~RadiosityRun()
   }
 }
 
-double RadiosityRun::Elapsed() const
+double RadiosityRun::Agreed(double seconds) const
 {
-  double seconds = this->Result.Convergence.Elapsed();
   if (this->Context.Options.Ranks)
   {
     this->Context.Options.Ranks->Largest(&seconds, 1);

@@ -42,7 +42,8 @@ struct RadiosityRun
   ~RadiosityRun();
 
   /// The greatest of the ranks' seconds, so that all decide alike.
-  double Elapsed() const;
+  double Agreed(double seconds) const;
+  double Elapsed() const { return this->Agreed(this->Result.Convergence.Elapsed()); }
   double Left() const
   {
     return this->Context.Options.TimeBudget > 0.0
@@ -55,7 +56,7 @@ struct RadiosityRun
   {
     const double begin = this->Result.Convergence.Elapsed();
     f();
-    const double spent = this->Result.Convergence.Elapsed() - begin;
+    const double spent = this->Agreed(this->Result.Convergence.Elapsed() - begin);
     for (auto& s : this->Result.Seconds)
     {
       if (s.first == stage)
