@@ -35,6 +35,8 @@ public:
   /// Ranks that run on this one's machine, this one included.
   int RanksHere() const { return this->Neighbours; }
 
+  /// A run begins: an earlier one's failure is forgotten.
+  void Begin() const { this->Ended = false; }
   /// This rank ends with this message (empty: it was asked to stop). The message of the run is
   /// returned: with its rank in front where not all say the same. Nothing is sent where the end is
   /// already agreed on.

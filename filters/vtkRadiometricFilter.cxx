@@ -106,6 +106,21 @@ void vtkRadiometricFilter::SetController(vtkMultiProcessController* controller)
   }
 }
 
+const ControllerCommunicator* vtkRadiometricFilter::Ranks()
+{
+  if (this->CommunicatorsLast != this->Controller || this->Communicators.empty())
+  {
+    this->Communicators.push_back(ControllerCommunicator::Make(this->Controller));
+    this->CommunicatorsLast = this->Controller;
+  }
+  const ControllerCommunicator* ranks = this->Communicators.back().get();
+  if (ranks)
+  {
+    ranks->Begin();
+  }
+  return ranks;
+}
+
 vtkMultiProcessController* vtkRadiometricFilter::GetController()
 {
   return this->Controller;
@@ -202,7 +217,7 @@ int vtkRadiometricFilter::RequestData(
     convergence->Initialize();
   };
   clear();
-  const auto ranks = ControllerCommunicator::Make(this->Controller);
+  const ControllerCommunicator* const ranks = this->Ranks();
   try
   {
     const double infinite = std::numeric_limits<double>::max();
@@ -229,14 +244,14 @@ int vtkRadiometricFilter::RequestData(
       adapter.AddOccluder(vtkDataObject::GetData(inputs[2], k));
     }
     adapter.FurtherArrays = this->CellArraysRead();
-    adapter.Gather(ranks.get());
+    adapter.Gather(ranks);
     const radiometry::Scene scene = adapter.Build();
 
     FilterMonitor monitor(this);
     Job job{ scene, {}, {}, true, &monitor };
-    job.Ranks = ranks.get();
+    job.Ranks = ranks;
     job.RanksHere = ranks ? ranks->RanksHere() : 1;
-    job.Threads = ThreadsOfRank(ranks.get(), this->NumberOfThreads);
+    job.Threads = ThreadsOfRank(ranks, this->NumberOfThreads);
     for (const int choice : { this->Occlusion, this->Interreflection, this->SpecularTransport,
            this->Transmission, this->BackFaces, this->Emission, this->Environment, this->SpotShape,
            this->Attenuation })

@@ -6,9 +6,11 @@
 #include "vtkRadiometryFiltersModule.h"
 #include "vtkSmartPointer.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
+class ControllerCommunicator;
 class vtkMatrix4x4;
 class vtkMultiProcessController;
 
@@ -241,6 +243,12 @@ protected:
   vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
+  /// The ranks of an execution; null: this process alone. Those of earlier controllers stay: what is
+  /// kept between executions may refer to them.
+  const ControllerCommunicator* Ranks();
+  std::vector<std::unique_ptr<ControllerCommunicator>> Communicators;
+  vtkMultiProcessController* CommunicatorsLast = nullptr; // to which the last one belongs
+
   vtkRadiometricFilter(const vtkRadiometricFilter&) = delete;
   void operator=(const vtkRadiometricFilter&) = delete;
 };

@@ -90,10 +90,11 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   options.Threads = job.Threads;
   options.Ranks = job.Ranks;
 
-  if (!this->CacheOperator)
+  if (!this->CacheOperator || this->CachedFor != job.Ranks)
   {
     this->Cache->Release();
   }
+  this->CachedFor = job.Ranks;
   radiometry::PlannedRadiosity computed = radiometry::SimulatePlannedRadiosity(job.Scene, job.Points,
     job.WantCells, job.Switches, options, job.Progress,
     this->CacheOperator ? this->Cache.get() : nullptr);

@@ -73,6 +73,7 @@ protected:
 
 private:
   std::shared_ptr<radiometry::RadiosityCache> Cache;
+  const void* CachedFor = nullptr; // the ranks that share what is kept
 
   vtkRadiosityFilter(const vtkRadiosityFilter&) = delete;
   void operator=(const vtkRadiosityFilter&) = delete;

@@ -122,8 +122,10 @@ def check_emitters_and_no_lights():
 
 
 def check_errors_end_all():
-    scene = cavity()
-    scene.arrays["DiffuseReflectance"] = [1.0] * CELLS  # closed, and nothing is lost
+    scene = Scene().add_box((0, 0, 0), (2, 2, 2), 3)
+    scene.polygons = [list(reversed(cell)) for cell in scene.polygons]
+    scene.arrays["DiffuseReflectance"] = [1.0] * len(scene.polygons)  # closed, nothing is lost
+    MIXED = [(7 * c + c // 5) % size() for c in range(len(scene.polygons))]
     part, _ = scene.part(MIXED, rank())
     for data, words in ((part, "reflectance"), (part, "rank 0: MemoryLimit")):
         f = radiosity(data, lamp())
