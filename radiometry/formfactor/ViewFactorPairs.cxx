@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/formfactor/ViewFactorPairs.h"
+
+#include "radiometry/geometry/PolygonFormFactor.h"
+#include "radiometry/scene/InputError.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radiometry
+{
+namespace
+{
+
+// An item of work: about so many pairs of elements (Dense), or elements of both (Hierarchical).
+constexpr std::int64_t ItemPairs = 8192;
+constexpr std::int32_t ItemElements = 2048;
+// Fewer pairs than this are taken one by one even where their clusters are apart.
+constexpr std::int64_t FewPairs = 16;
+// A row of more strata than this is left to all threads together.
+constexpr std::size_t LocalStrata = 64;
+// Of what stands in a shaft, so many are looked at.
+constexpr std::size_t MostInside = 24;
+
+/// The part of a flat node's outline above the plane of another.
+ConvexPolygon Above(const std::vector<Vec3>& outline, const PatchTree::Node& plane)
+{
+  ConvexPolygon whole, above;
+  double heights[ConvexPolygon::Capacity];
+  double least = 0.0;
+  const double rounding = 1e-13 * plane.Radius;
+  for (const Vec3& c : outline)
+  {
+    const double h = Dot(plane.Axis, c - plane.Center);
+    heights[whole.N] = std::abs(h) <= rounding ? 0.0 : h;
+    least = std::min(least, heights[whole.N]);
+    whole.Add(c);
+  }
+  if (least >= 0.0)
+  {
+    return whole;
+  }
+  return Clip(whole, heights, above) ? above : whole;
+}
+
+} // namespace
+
+/// Follows one item down to pairs of triangles and strata.
+class ViewFactorPairs::Worker
+{
+public:
+  explicit Worker(const ViewFactorPairs& pairs)
+    : P(pairs)
+    , Tree(pairs.Tree)
+  {
+  }
+
+  void Run(const Item& item)
+  {
+    if (item.A == item.B)
+    {
+      this->Begin(item.A, item.B);
+      this->Own(item.A);
+      this->Finish(this->IsWhole(item.A, item.B));
+      return;
+    }
+    const PatchTree::Node& b = Tree[item.B];
+    if (b.OneGroup() && b.FirstGroup == Tree[item.A].FirstGroup)
+    {
+      this->Begin(item.A, item.B);
+      this->Descend(item.A, item.B, !P.Between);
+      this->Finish(false);
+      return;
+    }
+    this->Cross(item.A, item.B, !P.Between);
+  }
+
+  std::vector<Part> Parts;
+  std::vector<ExchangeStratum> Strata;
+  std::int64_t Pairs = 0, Rays = 0;
+
+private:
+  bool IsWhole(std::int32_t a, std::int32_t b) const
+  {
+    return Tree.Root(Tree[a].FirstGroup) == a && Tree.Root(Tree[b].FirstGroup) == b;
+  }
+
+  /// b may hold several groups, of which those before a's own are not wanted.
+  void Cross(std::int32_t a, std::int32_t b, bool open)
+  {
+    const PatchTree::Node& na = Tree[a];
+    const PatchTree::Node& nb = Tree[b];
+    if (nb.LastGroup < na.FirstGroup || (nb.OneGroup() && nb.FirstGroup == na.FirstGroup) ||
+      !Tree.MayFace(na, nb))
+    {
+      return;
+    }
+    if (nb.OneGroup())
+    {
+      this->Begin(a, b);
+      this->Descend(a, b, open);
+      this->Finish(this->IsWhole(a, b));
+      return;
+    }
+    if (!open && na.Flat && nb.Flat)
+    {
+      const Proof proof = P.Prove(na, nb);
+      if (proof == Proof::Hidden)
+      {
+        return;
+      }
+      open = proof == Proof::Visible;
+    }
+    this->Cross(a, nb.Left, open);
+    this->Cross(a, nb.Right, open);
+  }
+
+  void Begin(std::int32_t a, std::int32_t b)
+  {
+    this->Current = Part{ Tree[a].FirstGroup, Tree[b].FirstGroup, 0.0, 0.0, 0.0,
+      static_cast<std::uint32_t>(this->Strata.size()), 0 };
+  }
+
+  /// Keeps what the item gave to its row; a row that lies all within the item is refined at once.
+  void Finish(bool whole)
+  {
+    Part& part = this->Current;
+    const double scale = part.I == part.J ? 2.0 : 1.0;
+    part.Value *= scale;
+    part.Truncation *= scale;
+    const std::size_t count = this->Strata.size() - part.First;
+    ExchangeStratum* strata = this->Strata.data() + part.First;
+    if (whole && count > 0 && count <= LocalStrata)
+    {
+      GroupExchange row{ part.I, part.J, part.Value, part.Truncation, 0.0 };
+      const double known = row.Value;
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        strata[k].Wanted = count <= 2 ? 8 : (count <= 8 ? 4 : 2);
+      }
+      do
+      {
+        for (std::size_t k = 0; k < count; ++k)
+        {
+          P.Sample(strata[k]);
+        }
+      } while (!P.Plan(row, known, strata, count));
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        this->Rays += strata[k].Rays;
+      }
+      part.Value = row.Value;
+      part.Sampling = row.Sampling;
+      this->Strata.resize(part.First);
+    }
+    part.Strata = static_cast<std::uint32_t>(this->Strata.size()) - part.First;
+    if (part.Value > 0.0 || part.Strata > 0)
+    {
+      this->Parts.push_back(part);
+    }
+  }
+
+  /// The exchange of a node's elements with each other, each pair once.
+  void Own(std::int32_t a)
+  {
+    const PatchTree::Node& node = Tree[a];
+    if (node.Single() || node.Flat)
+    {
+      return;
+    }
+    this->Own(node.Left);
+    this->Own(node.Right);
+    this->Descend(node.Left, node.Right, !P.Between);
+  }
+
+  void Descend(std::int32_t a, std::int32_t b, bool open)
+  {
+    const PatchTree::Node& na = Tree[a];
+    const PatchTree::Node& nb = Tree[b];
+    if (!Tree.MayFace(na, nb))
+    {
+      return;
+    }
+    if (na.Single() && nb.Single())
+    {
+      this->Leaf(a, b, open);
+      return;
+    }
+    if (!open && na.Flat && nb.Flat)
+    {
+      const Proof proof = P.Prove(na, nb);
+      if (proof == Proof::Hidden)
+      {
+        return;
+      }
+      open = proof == Proof::Visible;
+    }
+    if (P.Hierarchical && P.Apart(na, nb) &&
+      static_cast<std::int64_t>(na.Size()) * nb.Size() > FewPairs)
+    {
+      this->Add(a, b, -1.0, open);
+      return;
+    }
+    if (nb.Single() || (!na.Single() && na.Radius > nb.Radius))
+    {
+      this->Descend(na.Left, b, open);
+      this->Descend(na.Right, b, open);
+    }
+    else
+    {
+      this->Descend(a, nb.Left, open);
+      this->Descend(a, nb.Right, open);
+    }
+  }
+
+  void Leaf(std::int32_t a, std::int32_t b, bool open)
+  {
+    const PairExchangeResult pair =
+      PairExchange(Tree.Shape(Tree[a].Begin), Tree.Shape(Tree[b].Begin), P.PairTolerance);
+    if (!(pair.Value > 0.0))
+    {
+      return;
+    }
+    ++this->Pairs;
+    if (!open)
+    {
+      const Proof proof = P.Prove(Tree[a], Tree[b]);
+      if (proof == Proof::Hidden)
+      {
+        return;
+      }
+      open = proof == Proof::Visible;
+    }
+    this->Current.Truncation += pair.Error;
+    if (open)
+    {
+      this->Current.Value += pair.Value;
+      return;
+    }
+    this->Add(a, b, pair.Value, false);
+  }
+
+  void Add(std::int32_t a, std::int32_t b, double exact, bool open)
+  {
+    ExchangeStratum stratum;
+    stratum.A = a;
+    stratum.B = b;
+    stratum.Exact = exact;
+    stratum.Open = open;
+    stratum.Wanted = exact < 0.0 ? 4 : 1;
+    this->Strata.push_back(stratum);
+  }
+
+  const ViewFactorPairs& P;
+  const PatchTree& Tree;
+  Part Current{};
+};
+
+ViewFactorPairs::ViewFactorPairs(const PatchTree& tree, const OcclusionScene& occluders,
+  const Blockers* blockers, const ViewFactorOptions& options, bool hierarchical,
+  double pairTolerance)
+  : Tree(tree)
+  , Occluders(occluders)
+  , Between(blockers)
+  , Options(options)
+  , Hierarchical(hierarchical)
+  , PairTolerance(pairTolerance)
+{
+}
+
+bool ViewFactorPairs::Apart(const PatchTree::Node& a, const PatchTree::Node& b) const
+{
+  const double reach = a.Radius + b.Radius;
+  return LengthSquared(b.Center - a.Center) > 6.25 * reach * reach;
+}
+
+ViewFactorPairs::Proof ViewFactorPairs::Prove(
+  const PatchTree::Node& a, const PatchTree::Node& b) const
+{
+  const ConvexPolygon partA = Above(this->Tree.Outline(a), b);
+  const ConvexPolygon partB = Above(this->Tree.Outline(b), a);
+  if (partA.N < 3 || partB.N < 3)
+  {
+    return Proof::Unknown;
+  }
+  const Shaft shaft(partA, partB, this->Between->Rounding());
+  static thread_local std::vector<std::int32_t> inside;
+  inside.clear();
+  if (!this->Between->InShaft(shaft, MostInside, inside))
+  {
+    return Proof::Unknown;
+  }
+  if (inside.empty())
+  {
+    return Proof::Visible;
+  }
+  return this->Between->HideAll(partA, partB, shaft, inside) ? Proof::Hidden : Proof::Unknown;
+}
+
+void ViewFactorPairs::MakeItems(
+  std::int32_t a, std::int32_t b, bool own, std::vector<Item>& items) const
+{
+  const PatchTree::Node& na = this->Tree[a];
+  const PatchTree::Node& nb = this->Tree[b];
+  if ((!own &&
+        (nb.LastGroup < na.FirstGroup || (nb.OneGroup() && nb.FirstGroup == na.FirstGroup))) ||
+    !this->Tree.MayFace(na, nb))
+  {
+    return;
+  }
+  const bool small = this->Hierarchical
+    ? na.Size() + nb.Size() <= ItemElements || (nb.OneGroup() && this->Apart(na, nb))
+    : static_cast<std::int64_t>(na.Size()) * nb.Size() <= ItemPairs;
+  if (small || (na.Single() && nb.Single()))
+  {
+    items.push_back({ a, b });
+  }
+  else if (!nb.OneGroup() || na.Single() || (!nb.Single() && nb.Size() >= na.Size()))
+  {
+    this->MakeItems(a, nb.Left, own, items);
+    this->MakeItems(a, nb.Right, own, items);
+  }
+  else
+  {
+    this->MakeItems(na.Left, b, own, items);
+    this->MakeItems(na.Right, b, own, items);
+  }
+}
+
+void ViewFactorPairs::MakeOwnItems(std::int32_t a, std::vector<Item>& items) const
+{
+  const PatchTree::Node& node = this->Tree[a];
+  if (node.Single() || node.Flat)
+  {
+    return;
+  }
+  if (node.Size() <= 64)
+  {
+    items.push_back({ a, a });
+    return;
+  }
+  this->MakeOwnItems(node.Left, items);
+  this->MakeOwnItems(node.Right, items);
+  this->MakeItems(node.Left, node.Right, true, items);
+}
+
+std::vector<GroupExchange> ViewFactorPairs::Compute(
+  const StageProgress& stage, ConvergenceRecord& record)
+{
+  this->Clock = &record;
+  std::vector<Item> items;
+  for (std::size_t g = 0; g < this->Tree.Groups(); ++g)
+  {
+    const std::int32_t root = this->Tree.Root(static_cast<std::int32_t>(g));
+    this->MakeOwnItems(root, items);
+    this->MakeItems(root, 0, false, items);
+  }
+  std::vector<std::vector<Part>> parts(items.size());
+  std::vector<std::vector<ExchangeStratum>> found(items.size());
+  StageProgress first = stage;
+  first.End = stage.Begin + 0.7 * (stage.End - stage.Begin);
+  ParallelFor(
+    items.size(), this->Options.Threads, first,
+    [&](std::size_t k) {
+      Worker worker(*this);
+      worker.Run(items[k]);
+      this->PairCount += worker.Pairs;
+      this->RayCount += worker.Rays;
+      this->Bytes += static_cast<std::int64_t>(
+        worker.Parts.size() * (sizeof(Part) + sizeof(Row)) +
+        worker.Strata.size() * 2 * sizeof(ExchangeStratum));
+      if (this->Options.MemoryLimit &&
+        this->Bytes > static_cast<std::int64_t>(this->Options.MemoryLimit))
+      {
+        const double done = static_cast<double>(k + 1) / static_cast<double>(items.size());
+        throw InputError("MemoryLimit", -1,
+          static_cast<double>(this->Options.MemoryLimit) / (1024.0 * 1024.0),
+          "some " +
+            std::to_string(static_cast<long long>(
+              static_cast<double>(this->Bytes) / done / (1024.0 * 1024.0) + 1.0)) +
+            " MiB for the pairs of patches that see each other; or fewer patches");
+      }
+      parts[k] = std::move(worker.Parts);
+      found[k] = std::move(worker.Strata);
+    },
+    1e-3);
+
+  // One row for each two groups, from the parts in the order of the items.
+  struct Piece
+  {
+    const Part* Of;
+    const ExchangeStratum* Strata;
+  };
+  std::vector<Piece> pieces;
+  for (std::size_t k = 0; k < items.size(); ++k)
+  {
+    for (const Part& part : parts[k])
+    {
+      pieces.push_back({ &part, found[k].data() + part.First });
+    }
+  }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
+    return x.Of->I < y.Of->I || (x.Of->I == y.Of->I && x.Of->J < y.Of->J);
+  });
+  std::vector<Row> rows;
+  std::vector<ExchangeStratum> strata;
+  for (const Piece& piece : pieces)
+  {
+    const Part& part = *piece.Of;
+    if (rows.empty() || rows.back().Exchange.I != part.I || rows.back().Exchange.J != part.J)
+    {
+      rows.push_back({ { part.I, part.J, 0.0, 0.0, 0.0 }, strata.size(), 0, true });
+    }
+    Row& row = rows.back();
+    row.Exchange.Value += part.Value;
+    row.Exchange.Truncation += part.Truncation;
+    row.Exchange.Sampling += part.Sampling; // of a row of one part
+    row.Strata += part.Strata;
+    row.Met = row.Strata == 0;
+    strata.insert(strata.end(), piece.Strata, piece.Strata + part.Strata);
+  }
+  StageProgress second = stage;
+  second.Begin = first.End;
+  this->Refine(rows, strata, second, record);
+
+  std::vector<GroupExchange> out;
+  out.reserve(rows.size());
+  for (const Row& row : rows)
+  {
+    if (row.Exchange.Value > 0.0)
+    {
+      out.push_back(row.Exchange);
+    }
+  }
+  return out;
+}
+
+} // namespace radiometry
