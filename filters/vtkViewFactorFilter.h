@@ -56,7 +56,8 @@ public:
   void RemoveOccludersConnections();
 
   ///@{
-  /// Name of the integer cell array that tells a cell's patch. Default: none, every cell is its own.
+  /// Name of the integer cell array that tells a cell's patch. Default: none ("" or "None"), every
+  /// cell is its own.
   vtkSetStringMacro(PatchArray);
   vtkGetStringMacro(PatchArray);
   ///@}

@@ -14,7 +14,7 @@ namespace
 constexpr double Pi = 3.14159265358979323846;
 constexpr int Sets = ExchangeStratum::Sets;
 constexpr double MostPoints = 1u << 20;  // of each sequence in a row's round
-constexpr double MostAgreed = 256;       // ... of a stratum all of whose rays agree
+constexpr double MostAgreed = 1024;      // ... of a stratum all of whose rays agree
 constexpr std::size_t FewStrata = 8;     // of a row whose strata must each be looked at well
 
 /// What 95 % of Student's t with so many degrees of freedom stay below (within 1 %).
