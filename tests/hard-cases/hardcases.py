@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the hard cases of direct light share: meshes, lights of every kind as raw arrays, runs of the
-filter, and oracles that use nothing of the project."""
+"""What the hard cases share: meshes, lights of every kind as raw arrays, runs of the filters, and
+oracles that use nothing of the project."""
 import sys
 import traceback
 from math import pi
@@ -10,7 +10,7 @@ from filters.checks import Errors, array, fails  # noqa: F401 (handed on to the 
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkradiometry import vtkIrradianceFilter
+from vtkradiometry import vtkIrradianceFilter, vtkRadiosityFilter
 
 CELLS, POINTS = 0, 1
 EPS = np.finfo(float).eps
@@ -268,8 +268,10 @@ def light_data(*lights, field=None):
 class Run:
     """Irradiance and error of one run, values x bands; front, or back."""
 
-    def __init__(self, surface, lights, occluders=(), back=False, **properties):
-        f = vtkIrradianceFilter()
+    FILTER = vtkIrradianceFilter
+
+    def __init__(self, surface, lights=(), occluders=(), back=False, **properties):
+        f = self.FILTER()
         f.SetInputData(surface)
         lights = [lights] if isinstance(lights, (Light, vtkPolyData)) else list(lights)
         if lights and isinstance(lights[0], Light):
@@ -300,6 +302,23 @@ class Run:
 
     def bytes(self):
         return self.e.tobytes() + self.error.tobytes()
+
+
+DENSE, HIERARCHICAL, MONTE_CARLO = 1, 2, 3
+METHODS = {"Dense": DENSE, "Hierarchical": HIERARCHICAL, "MonteCarlo": MONTE_CARLO}
+
+
+class Solved(Run):
+    """The same of the radiosity filter."""
+
+    FILTER = vtkRadiosityFilter
+
+    def mean(self, areas):
+        """Area-weighted mean irradiance of the first band."""
+        return (self.e[:, 0] * areas).sum() / areas.sum()
+
+    def method(self):
+        return array(self.output.GetFieldData(), "RadiometryMethod")[0]
 
 
 def cell(surface, lights, **properties):
