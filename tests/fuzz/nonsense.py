@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of any name, type, length and content on surfaces, lights and sensors, and properties of any
-value: the irradiance filter gives a result that is a number everywhere, or one error of one line and
+value: a simulating filter gives a result that is a number everywhere, or one error of one line and
 empty outputs. It never crashes and never gives NaN or less than nothing.
 
-direct_nonsense.py [--first SEED] [--count N] [--timed]    any seed again: --first SEED --count 1
+nonsense.py FILTER [--first SEED] [--count N] [--timed]    any seed again: --first SEED --count 1
 With --timed, on a quiet machine, a run must also keep its time budget within half a second.
 """
 import argparse
@@ -15,7 +15,7 @@ import numpy as np
 from hardcases import KINDS, Errors, array, light_data, polydata, room, sensors
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkStringArray
-from vtkradiometry import vtkIrradianceFilter
+from vtkradiometry import vtkIrradianceFilter, vtkRadiosityFilter
 
 NAMES = ["DiffuseReflectance", "SpecularReflectance", "Shininess", "EmittedExitance", "Transmittance",
          "Ambient", "TwoSided", "BackDiffuseReflectance", "BackEmittedExitance", "LightType",
@@ -24,7 +24,8 @@ NAMES = ["DiffuseReflectance", "SpecularReflectance", "Shininess", "EmittedExita
          "ReferenceDirection", "LightTwoSided", "SkyModel", "SkyCoefficients", "SunDirection",
          "EnvironmentMap", "Irradiance", "IrradianceError", "PhotometricWeb0",
          "PhotometricWeb0Horizontal", "PhotometricWeb0Vertical", "EnvironmentMap0",
-         "EnvironmentMap0Size", "LuminousEfficacy", "Photometric"]
+         "EnvironmentMap0Size", "LuminousEfficacy", "Photometric", "BackSpecularReflectance",
+         "DiffuseTransmittance", "vtkGhostType"]
 TYPES = [np.float64, np.float32, np.int32, np.int8, np.uint8, np.int64, np.uint64]
 NUMBERS = [0.0, 1.0, -1.0, 0.5, 2.0, 3.0, 4.0, 45.0, 90.0, 180.0, 1e-300, 5e-324, 1e30, 1e300, -1e300,
            nan, inf, -inf]
@@ -101,14 +102,25 @@ PROPERTIES = {
     "Environment": lambda rng: int(rng.choice([0, 1, 2])),
     "Transmission": lambda rng: int(rng.choice([0, 1, 2])),
 }
-RESULTS = [name + side + error for name in ("Irradiance", "Illuminance") for side in ("", "Back")
-           for error in ("", "Error")]
+RADIOSITY_PROPERTIES = {
+    "Method": lambda rng: int(rng.choice([0, 1, 2, 3, 7, -1])),
+    "Refinement": lambda rng: int(rng.choice([0, 1, 2, 5])),
+    "Interreflection": lambda rng: int(rng.choice([0, 1, 2])),
+    "SpecularTransport": lambda rng: int(rng.choice([0, 1, 2])),
+}
+# The filter, its further properties, and the tolerance it starts from.
+FILTERS = {"irradiance": (vtkIrradianceFilter, {}, 0.01),
+           "radiosity": (vtkRadiosityFilter, RADIOSITY_PROPERTIES, 0.2)}
+RESULTS = [name + side + error for name in ("Irradiance", "Illuminance", "Radiosity", "Radiance")
+           for side in ("", "Back") for error in ("", "Error")]
 
 
-def check(seed, timed):
+def check(seed, kind, timed):
     """True when the filter had an answer, False when it refused."""
     rng = np.random.default_rng(seed)
-    f = vtkIrradianceFilter()
+    made, further, tolerance = FILTERS[kind]
+    f = made()
+    f.SetRelativeTolerance(tolerance)
     data = surface(rng)
     names = [make() for make in KINDS.values()]
     lights = light_data(*[names[k] for k in rng.integers(0, len(names), rng.integers(0, 4))])
@@ -125,7 +137,7 @@ def check(seed, timed):
     f.AddLightsData(lights)
     if rng.random() < 0.4:
         f.AddOccludersData(shade)
-    for name, value_of in PROPERTIES.items():
+    for name, value_of in (PROPERTIES | further).items():
         if rng.random() < 0.12:
             getattr(f, "Set" + name)(value_of(rng))
     errors = Errors(f)
@@ -154,14 +166,16 @@ def check(seed, timed):
 def main():
     faulthandler.enable()
     parser = argparse.ArgumentParser()
+    parser.add_argument("filter", choices=FILTERS)
     parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--count", type=int, default=600)
+    parser.add_argument("--count", type=int, default=0)
     parser.add_argument("--timed", action="store_true")
     chosen = parser.parse_args()
+    chosen.count = chosen.count or {"irradiance": 600, "radiosity": 150}[chosen.filter]
     failed, answered = [], 0
     for seed in range(chosen.first, chosen.first + chosen.count):
         try:
-            answered += check(seed, chosen.timed)
+            answered += check(seed, chosen.filter, chosen.timed)
         except AssertionError as problem:
             failed.append(seed)
             print(f"seed {seed}: {problem}", flush=True)
