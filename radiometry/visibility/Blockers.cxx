@@ -193,7 +193,7 @@ bool Blockers::Parts(
   return Side(receiver, n, through, this->Tolerance) * Side(light, n, through, this->Tolerance) < 0;
 }
 
-/// True where the triangle passes through the inside of a polygon.
+/// True where the triangle passes through the inside of a polygon, or stands on it with an edge.
 bool Blockers::Cuts(std::int32_t t, const ConvexPolygon& polygon) const
 {
   const Vec3 n = Normalized(AreaNormal2(polygon.P, static_cast<std::size_t>(polygon.N)));
@@ -212,7 +212,7 @@ bool Blockers::Cuts(std::int32_t t, const ConvexPolygon& polygon) const
       (ends++ == 0 ? cut.A : cut.B) = p;
     }
   }
-  if (ends < 2 || Side(ConvexPolygon(v), n, polygon.P[0], this->Tolerance) != 0)
+  if (ends < 2 || Length(cut.B - cut.A) <= this->Tolerance)
   {
     return false;
   }

@@ -210,6 +210,22 @@ def test_half_behind_a_wall():
     assert abs(run.e[0, 0] - exact) <= run.error[0, 0] + 1e-6, (run.e, exact, run.error)
 
 
+def test_a_screen_that_stands_inside_a_cell():
+    """A tall screen of two faces on the middle of a floor cell, the lamp aside: its half of the floor is
+    lit as without the screen, the other half is dark."""
+    lamp = DOWN * (0.5, 0.5, 0) + (0.9, 0.25, 1.6)
+    front = grid((0.5, -9, 0), (0, 19, 0), (0, 0, 9))
+    back = grid((0.5, -9, 0), (0, 0, 9), (0, 19, 0))
+    for floor in ([(0, 1, 2, 3)], [(0, 1, 2), (0, 2, 3)]):
+        scene = mesh((SQUARE, floor), front, back)
+        run = Run(scene, area(lamp), RelativeTolerance=1e-3)
+        size = areas_of(SQUARE, floor)
+        half = Run(surface(SQUARE * (0.5, 1, 1) + (0.5, 0, 0)), area(lamp), **FINE)
+        flux, error = size @ run.e[:len(floor), 0], size @ run.error[:len(floor), 0]
+        assert abs(flux - 0.5 * half.e[0, 0]) <= error + 0.5 * half.error[0, 0], (flux, half.e)
+        assert error <= 0.01 * flux, (flux, error)
+
+
 def test_lights_without_area_and_bent_ones():
     """No area: nothing, or an error that says so; a number is never made up."""
     for corners in ([(0, 0, 1), (1, 0, 1), (2, 0, 1)], [(0, 0, 1)] * 3,
