@@ -12,7 +12,7 @@ ClusterProbes::ClusterProbes(const OcclusionScene& occluders, const ElementSet& 
   const ExchangeOptions& options, const StageProgress& stage)
 {
   const std::size_t n = elements.Size();
-  const auto points = static_cast<int>(std::clamp<std::size_t>(65536 / std::max<std::size_t>(n, 1), 4, 16));
+  const auto points = static_cast<int>(std::clamp<std::size_t>(262144 / std::max<std::size_t>(n, 1), 4, 128));
   this->Rays = 2 * points;
   this->Covered.assign(n, 0);
   this->Missed.assign(n, 0);

@@ -12,7 +12,7 @@
 namespace radiometry
 {
 
-/// What rays from an element meet: pairs of rays from 4 to 16 points of it (the fewer the more
+/// What rays from an element meet: pairs of rays from 4 to 128 points of it (the fewer the more
 /// elements there are), opposite about the normal, spread by the cosine.
 struct ClusterProbes
 {
