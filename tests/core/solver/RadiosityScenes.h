@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/scene/Scene.h"
+
+#include <string>
+#include <vector>
+
+namespace test
+{
+
+/// Scenes on which the stated errors of radiosity are judged. Every cell is one triangle.
+struct RadiosityScene
+{
+  std::string Name;
+  radiometry::Scene World;
+};
+std::vector<RadiosityScene> RadiosityScenes();
+
+/// A value of a scene by paths (PathReference.h), kept in RadiosityReferences.txt.
+struct RadiosityReference
+{
+  std::string Scene;
+  std::size_t Cell = 0;
+  int Side = 0;
+  int Band = 0;
+  double Irradiance = 0.0; // W/m^2
+  double Error = 0.0;      // standard error
+};
+std::vector<RadiosityReference> RadiosityReferences();
+/// The file that they are read from.
+std::string RadiosityReferencePath();
+
+} // namespace test
