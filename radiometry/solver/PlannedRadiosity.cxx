@@ -110,7 +110,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   out.Cells = simulation.Run({ monitor, 0.02, share, "radiosity" });
   const std::vector<double>& through = scene.Optics.DiffuseTransmittance;
   const bool diffusing =
-    std::any_of(through.begin(), through.end(), [](double share) { return share > 0.0; });
+    std::any_of(through.begin(), through.end(), [](double tau) { return tau > 0.0; });
   const int sides = options.BackFaces || diffusing ? 2 : 1;
   for (int side = 0; side < sides && !points.empty(); ++side)
   {
