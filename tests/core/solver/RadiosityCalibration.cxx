@@ -11,6 +11,7 @@ using namespace radiometry;
 const std::map<std::string, RadiosityMethod>& RadiosityMethods()
 {
   static const std::map<std::string, RadiosityMethod> methods{ { "Dense", RadiosityMethod::Dense },
+    { "Hierarchical", RadiosityMethod::Hierarchical },
     { "MonteCarlo", RadiosityMethod::MonteCarlo } };
   return methods;
 }
