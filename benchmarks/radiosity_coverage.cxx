@@ -7,7 +7,7 @@
 /// the share of values covered by their error, the median of error / |true error|, and the greatest
 /// of the parts of the error budget.
 ///
-///   radiosity_coverage [seeds=3] [only: part of the scene's name]
+///   radiosity_coverage [seeds=3] [only: part of the scene's name] [part of the method's]
 ///   radiosity_coverage --references [strata=64] [cells=60]   computes the references anew (an hour)
 
 #include "benchmarks/Provenance.h"
@@ -22,6 +22,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <random>
 #include <string>
 
@@ -100,6 +101,7 @@ int main(int argc, char** argv)
   }
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 3;
   const std::string only = argc > 2 ? argv[2] : "";
+  const std::string onlyMethod = argc > 3 ? argv[3] : "";
   nlohmann::json out;
   out["question"] = "coverage of the stated errors of radiosity";
   benchmark::AddProvenance(out);
@@ -114,6 +116,10 @@ int main(int argc, char** argv)
     }
     for (const auto& [name, method] : test::RadiosityMethods())
     {
+      if (name.find(onlyMethod) == std::string::npos)
+      {
+        continue;
+      }
       for (const double tolerance : { 0.1, 0.03 })
       {
         const auto start = std::chrono::steady_clock::now();

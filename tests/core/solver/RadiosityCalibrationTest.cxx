@@ -52,7 +52,6 @@ void Judge(const std::string& name)
 } // namespace
 
 TEST(RadiosityCalibration, Dense) { Judge("Dense"); }
-TEST(RadiosityCalibration, Hierarchical) { Judge("Hierarchical"); }
 TEST(RadiosityCalibration, MonteCarlo) { Judge("MonteCarlo"); }
 
 TEST(RadiosityCalibration, ReferencesAreOfTheseScenes)
