@@ -182,25 +182,45 @@ void ControllerCommunicator::Gather(std::int32_t* values, const std::vector<std:
   this->Collect(values, begin);
 }
 
-std::vector<std::vector<char>> ControllerCommunicator::GatherBytes(const std::vector<char>& own) const
+std::vector<std::vector<char>> ControllerCommunicator::GatherBytes(
+  const std::vector<char>& own, int root) const
 {
   this->Agree();
   const auto length = static_cast<long long>(own.size());
   std::vector<long long> lengths(static_cast<std::size_t>(this->Count));
   this->Controller->AllGather(&length, lengths.data(), 1);
-  std::vector<std::vector<char>> all;
+  constexpr int tag = 721083;
+  std::vector<std::vector<char>> all(lengths.size());
   for (int r = 0; r < this->Count; ++r)
   {
-    std::vector<char> bytes = r == this->Own ? own : std::vector<char>();
-    bytes.resize(static_cast<std::size_t>(lengths[static_cast<std::size_t>(r)]));
-    for (std::size_t done = 0; done < bytes.size(); done += MostValues)
+    const auto count = static_cast<std::size_t>(lengths[static_cast<std::size_t>(r)]);
+    std::vector<char>& bytes = all[static_cast<std::size_t>(r)];
+    if (r == this->Own)
     {
-      const std::size_t part = std::min(MostValues, bytes.size() - done);
-      this->Controller->Broadcast(bytes.data() + done, static_cast<vtkIdType>(part), r);
+      bytes = own;
     }
-    all.push_back(std::move(bytes));
+    else if (root < 0 || this->Own == root)
+    {
+      bytes.resize(count);
+    }
+    for (std::size_t done = 0; done < count; done += MostValues)
+    {
+      const auto part = static_cast<vtkIdType>(std::min(MostValues, count - done));
+      if (root < 0)
+      {
+        this->Controller->Broadcast(bytes.data() + done, part, r);
+      }
+      else if (r == this->Own && r != root)
+      {
+        this->Controller->Send(bytes.data() + done, part, root, tag);
+      }
+      else if (r != root && this->Own == root)
+      {
+        this->Controller->Receive(bytes.data() + done, part, r, tag);
+      }
+    }
   }
-  return all;
+  return root < 0 || this->Own == root ? all : std::vector<std::vector<char>>();
 }
 
 int ThreadsOfRank(const ControllerCommunicator* ranks, int wanted)

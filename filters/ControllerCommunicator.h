@@ -29,8 +29,8 @@ public:
   void Gather(double* values, const std::vector<std::size_t>& begin) const override;
   void Gather(std::int32_t* values, const std::vector<std::size_t>& begin) const override;
 
-  /// The bytes of every rank, rank by rank.
-  std::vector<std::vector<char>> GatherBytes(const std::vector<char>& own) const;
+  /// The bytes of every rank, rank by rank; with a root only there (else empty).
+  std::vector<std::vector<char>> GatherBytes(const std::vector<char>& own, int root = -1) const;
 
   /// Ranks that run on this one's machine, this one included.
   int RanksHere() const { return this->Neighbours; }

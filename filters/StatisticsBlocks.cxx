@@ -128,21 +128,29 @@ StatisticsField FindField(vtkPolyData* surface, const std::string& name)
     onCells != nullptr };
 }
 
-std::vector<std::string> ResultNames(const std::vector<StatisticsBlock>& blocks)
+std::vector<std::string> ResultQuantities()
 {
   namespace names = radiometry::names;
-  std::vector<std::string> found;
+  std::vector<std::string> all;
   for (const std::string name : { names::Irradiance, names::Radiosity, names::Radiance,
          names::Illuminance, names::LuminousExitance, names::Luminance, names::Dose,
          names::LuminousExposure })
   {
-    for (const std::string& full : { name, name + names::BackSuffix })
+    all.push_back(name);
+    all.push_back(name + names::BackSuffix);
+  }
+  return all;
+}
+
+std::vector<std::string> ResultNames(const std::vector<StatisticsBlock>& blocks)
+{
+  std::vector<std::string> found;
+  for (const std::string& name : ResultQuantities())
+  {
+    if (std::any_of(blocks.begin(), blocks.end(),
+          [&](const auto& block) { return FindField(block.Data, name).Array != nullptr; }))
     {
-      if (std::any_of(blocks.begin(), blocks.end(),
-            [&](const auto& block) { return FindField(block.Data, full).Array != nullptr; }))
-      {
-        found.push_back(full);
-      }
+      found.push_back(name);
     }
   }
   return found;

@@ -53,5 +53,8 @@ struct StatisticsField
 /// Cell data is looked at first; Array is null where there is none of that name.
 StatisticsField FindField(vtkPolyData* surface, const std::string& name);
 
+/// The names of the result arrays of docs/arrays.md, those of backs included.
+std::vector<std::string> ResultQuantities();
+
 /// Every result array of docs/arrays.md that one of the blocks has, without the Error arrays.
 std::vector<std::string> ResultNames(const std::vector<StatisticsBlock>& blocks);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiometricStatistics.h"
 
+#include "ControllerCommunicator.h"
 #include "IsoLinePolyData.h"
 #include "StatisticsBlocks.h"
+#include "StatisticsGathering.h"
 #include "StatisticsTable.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
@@ -12,6 +14,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -101,6 +104,40 @@ void WriteSensorCells(const std::vector<StatisticsBlock>& blocks, vtkPolyData* o
 vtkRadiometricStatistics::vtkRadiometricStatistics()
 {
   this->SetNumberOfOutputPorts(4);
+  this->Controller = vtkMultiProcessController::GetGlobalController();
+}
+
+void vtkRadiometricStatistics::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Controller != controller)
+  {
+    this->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkRadiometricStatistics::GetController()
+{
+  return this->Controller;
+}
+
+std::vector<std::string> vtkRadiometricStatistics::ArraysRead() const
+{
+  namespace names = radiometry::names;
+  std::vector<std::string> arrays = this->ArrayNames;
+  for (const std::string& name : ResultQuantities())
+  {
+    if (this->ArrayNames.empty())
+    {
+      arrays.push_back(name);
+    }
+  }
+  for (const std::string& name : { Chosen(this->GroupArray), Chosen(this->IsolineArray),
+         std::string(names::SensorCell), std::string(names::Normals) })
+  {
+    arrays.push_back(name);
+  }
+  return arrays;
 }
 
 vtkRadiometricStatistics::~vtkRadiometricStatistics()
@@ -248,9 +285,26 @@ int vtkRadiometricStatistics::RequestData(
     }
   };
   clear();
+  const auto ranks = ControllerCommunicator::Make(this->Controller);
+  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(in[0]);
   try
   {
-    this->Describe(vtkDataObject::GetData(in[0]), out);
+    if (ranks)
+    {
+      input = GatherForStatistics(*ranks, input, this->ArraysRead());
+    }
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< ranks->Fail(error.what()));
+    return 0;
+  }
+  try
+  {
+    if (input) // the first rank's
+    {
+      this->Describe(input, out);
+    }
   }
   catch (const InputError& error)
   {

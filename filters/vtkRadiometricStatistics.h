@@ -3,10 +3,13 @@
 #define vtkRadiometricStatistics_h
 
 #include "vtkRadiometryFiltersModule.h"
+#include "vtkSmartPointer.h" // for Controller
 #include "vtkTableAlgorithm.h"
 
 #include <string> // for ArrayNames
 #include <vector> // for ArrayNames
+
+class vtkMultiProcessController;
 
 /// Area-weighted statistics of arrays over a surface, its blocks and its groups of cells, and lines
 /// of equal value (iso-lux lines).
@@ -108,6 +111,14 @@ public:
   vtkGetMacro(MetersPerUnit, double);
   ///@}
 
+  ///@{
+  /// The processes that hold the pieces of the surface; all of them must update the filter. What is said
+  /// is said of all pieces together, on the first process; the outputs of the others are empty.
+  /// Default: the global controller, so the ranks of pvbatch and pvserver. Null: this process alone.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
 protected:
   vtkRadiometricStatistics();
   ~vtkRadiometricStatistics() override;
@@ -126,12 +137,14 @@ protected:
   char* IsolineArray = nullptr;
   std::vector<double> Isovalues;
   double MetersPerUnit = 1.0;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
   vtkRadiometricStatistics(const vtkRadiometricStatistics&) = delete;
   void operator=(const vtkRadiometricStatistics&) = delete;
 
   void Describe(vtkDataObject* input, vtkInformationVector* out) const;
+  std::vector<std::string> ArraysRead() const;
 };
 
 #endif

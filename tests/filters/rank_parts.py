@@ -8,7 +8,7 @@ import sys
 import numpy as np
 
 
-def run_ranks(script, sizes=(2, 4), symmetric=True, timeout=240):
+def run_ranks(script, sizes, symmetric=True, *arguments, timeout=240):
     """Runs a script of this folder in pvbatch on so many ranks each; any failure ends this one."""
     if not shutil.which("mpiexec") or not shutil.which("pvbatch"):
         print("skipped: no mpiexec or no pvbatch")
@@ -21,7 +21,7 @@ def run_ranks(script, sizes=(2, 4), symmetric=True, timeout=240):
     path = os.path.join(os.path.dirname(os.path.abspath(__file__)), script)
     for size in sizes:
         done = subprocess.run(["mpiexec", "-np", str(size), "pvbatch",
-                               *(["--sym"] if symmetric else []), path],
+                               *(["--sym"] if symmetric else []), path, *arguments],
                               env=environment, timeout=timeout, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
         print(done.stdout)

@@ -49,6 +49,7 @@ def irradiance(data, *lights, alone=False, **properties):
     f = simulation(vtkIrradianceFilter, data, *lights, **{"RelativeTolerance": 0.1, **properties})
     if alone:
         f.SetController(None)
+        f.SetNumberOfThreads(1)  # other ranks do the same
     return f
 
 

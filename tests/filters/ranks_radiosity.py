@@ -41,6 +41,7 @@ def radiosity(data, *lights, alone=False, **properties):
     f = simulation(vtkRadiosityFilter, data, *lights, **{"RelativeTolerance": 0.1, **properties})
     if alone:
         f.SetController(None)
+        f.SetNumberOfThreads(1)  # other ranks do the same
     return f
 
 
@@ -82,6 +83,10 @@ def method(number, **properties):
 
 def check_dense():
     method(DENSE, Refinement=OFF)
+
+
+def check_hierarchical():
+    method(HIERARCHICAL, Refinement=OFF)
 
 
 def check_monte_carlo():

@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Direct light under mpiexec: parts, ghost cells, lights here and there; all that one process gets."""
+import os
+import tempfile
+
 from rank_parts import run_ranks
 
-run_ranks("ranks_irradiance.py")
+run_ranks("ranks_irradiance.py", (2, 4))
+with tempfile.TemporaryDirectory() as folder:
+    for ranks in (1, 3):
+        run_ranks("ranks_paraview.py", (ranks,), False, os.path.join(folder, "one.json"))
