@@ -2,6 +2,7 @@
 #include "radiometry/formfactor/ClusterProbes.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/scene/Collective.h"
 
 #include <algorithm>
 
@@ -16,9 +17,10 @@ ClusterProbes::ClusterProbes(const OcclusionScene& occluders, const ElementSet& 
   this->Rays = 2 * points;
   this->Covered.assign(n, 0);
   this->Missed.assign(n, 0);
-  ParallelFor(
-    n, options.Threads, stage,
-    [&](std::size_t i) {
+  std::vector<std::int32_t> found(n, 0); // kind, and 4 where a ray met no receiving element
+  const RankShare share(options.Ranks, n);
+  const auto probe = [&](std::size_t k) {
+      const std::size_t i = share.Begin + k;
       const Patch& patch = elements.GetPatches()[i];
       const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
       if (!(LengthSquared(normal) > 0.0))
@@ -27,6 +29,7 @@ ClusterProbes::ClusterProbes(const OcclusionScene& occluders, const ElementSet& 
       }
       const SobolSequence sequence(Hash64(Hash64(options.Seed, 0x636f766572ull), i));
       int dark = 0;
+      bool missed = false;
       for (int k = 0; k < points; ++k)
       {
         const auto u = sequence(static_cast<std::uint32_t>(k));
@@ -37,14 +40,24 @@ ClusterProbes::ClusterProbes(const OcclusionScene& occluders, const ElementSet& 
         {
           const SurfaceHit hit = occluders.Closest(start, d);
           const bool receives = elements.Find(hit.Triangle, hit.Front, hit.U, hit.V) >= 0;
-          this->Missed[i] = this->Missed[i] || !receives;
+          missed = missed || !receives;
           behind += hit.Triangle >= 0 && !hit.Front && !receives;
         }
         dark += behind == 2;
       }
-      this->Covered[i] = dark == 0 ? 0 : (dark == points ? 2 : 1);
-    },
-    5e-6);
+      found[i] = (dark == 0 ? 0 : (dark == points ? 2 : 1)) + (missed ? 4 : 0);
+    };
+  Collectively(options.Ranks,
+    [&] { ParallelFor(share.End - share.Begin, options.Threads, stage, probe, 5e-6); });
+  if (options.Ranks)
+  {
+    options.Ranks->Gather(found.data(), RankShare::Begins(*options.Ranks, n));
+  }
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    this->Covered[i] = static_cast<std::uint8_t>(found[i] & 3);
+    this->Missed[i] = found[i] >= 4;
+  }
   const auto partly = static_cast<std::size_t>(std::count(this->Covered.begin(), this->Covered.end(), 1));
   if (partly > n / 3)
   {

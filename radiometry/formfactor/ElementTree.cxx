@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <tbb/parallel_invoke.h>
 
 namespace radiometry
@@ -256,12 +257,53 @@ ElementTree::ElementTree(const ElementSet& elements, std::vector<std::uint8_t> k
     }
   }
   this->Tolerance = 8.0 * std::numeric_limits<double>::epsilon() * extent;
+  this->FindSubtrees();
+}
+
+void ElementTree::FindSubtrees()
+{
   for (std::size_t k = 0; k < this->Nodes.size();)
   {
     const bool small = this->Nodes[k].Count <= 512;
     (small ? this->Small : this->Large).push_back(static_cast<std::int32_t>(k));
     k += small ? 2 * static_cast<std::size_t>(this->Nodes[k].Count) - 1 : 1;
   }
+}
+
+void ElementTree::Save(ArchiveWriter& out) const
+{
+  out.Put(this->Nodes);
+  out.Put(this->Items);
+  out.Put(this->Tolerance);
+}
+
+void ElementTree::Load(ArchiveReader& in)
+{
+  in.Get(this->Nodes);
+  in.Get(this->Items);
+  this->Tolerance = in.Get<double>();
+  const std::size_t n = this->Items.size();
+  bool sound = this->Nodes.size() == (n > 0 ? 2 * n - 1 : 0);
+  for (std::size_t k = 0; sound && k < this->Nodes.size(); ++k)
+  {
+    const Node& node = this->Nodes[k];
+    const auto at = static_cast<std::int32_t>(k);
+    sound = node.First >= 0 && node.Count >= 1 &&
+      static_cast<std::size_t>(node.First) + static_cast<std::size_t>(node.Count) <= n &&
+      node.Parent < at && (node.Parent >= 0 || k == 0) && node.Leaf() == (node.Count == 1) &&
+      (node.Leaf() ||
+        (node.Second > at + 1 && static_cast<std::size_t>(node.Second) < this->Nodes.size())) &&
+      k + 2 * static_cast<std::size_t>(node.Count) - 1 <= this->Nodes.size();
+  }
+  for (const std::int32_t item : this->Items)
+  {
+    sound = sound && item >= 0 && static_cast<std::size_t>(item) < n;
+  }
+  if (!sound)
+  {
+    throw std::runtime_error("is damaged: its tree does not hold together");
+  }
+  this->FindSubtrees();
 }
 
 bool ElementTree::MayFace(std::int32_t a, std::int32_t b) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/formfactor/ElementSet.h"
+#include "radiometry/scene/Archive.h"
 
 #include <cstdint>
 #include <vector>
@@ -52,6 +53,9 @@ public:
   const std::vector<std::int32_t>& Subtrees() const { return this->Small; }
   /// The nodes above them, in preorder.
   const std::vector<std::int32_t>& Upper() const { return this->Large; }
+  void Save(ArchiveWriter& out) const;
+  /// Throws std::runtime_error where the archive is damaged.
+  void Load(ArchiveReader& in);
   std::size_t MemoryBytes() const
   {
     return this->Nodes.size() * sizeof(Node) +
@@ -65,6 +69,7 @@ public:
 
 private:
   struct Builder;
+  void FindSubtrees();
 
   std::vector<Node> Nodes;
   std::vector<std::int32_t> Items, Small, Large;

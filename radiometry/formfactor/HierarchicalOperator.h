@@ -34,8 +34,14 @@ public:
     const ElementSet& elements, const ExchangeOptions& options, const StageProgress& stage = {});
   ~HierarchicalOperator() override;
 
-  /// Bytes that n elements need at least.
-  static std::size_t LeastBytes(std::size_t n);
+  /// Bytes that each of some ranks needs at least for n elements.
+  static std::size_t LeastBytes(std::size_t n, int ranks = 1);
+
+  /// Everything but what belongs to the process. Over ranks each saves its own share.
+  void Save(ArchiveWriter& out) const;
+  /// Throws std::runtime_error where the archive is damaged or was saved by another number of ranks.
+  static std::unique_ptr<HierarchicalOperator> Load(
+    ArchiveReader& in, int threads = 0, const Communicator* ranks = nullptr);
 
   std::size_t Size() const override;
   const std::vector<double>& Areas() const override;
@@ -53,6 +59,7 @@ public:
   std::size_t Links() const;
 
 private:
+  HierarchicalOperator();
   struct Internals;
   std::unique_ptr<Internals> Impl;
 };
