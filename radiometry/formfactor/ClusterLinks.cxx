@@ -18,8 +18,10 @@ constexpr double FarEnough = 0.7; // sum of radii over distance at which a rule 
 // Shares of the tolerance that one link may miss of a row. Some hundred links make a row; their
 // errors add by squares.
 constexpr double FormShare = 0.02;
-constexpr double SightShare = 0.1;     // of what differs by the far elements
+constexpr double SightShare = 0.08;    // of what differs by the far elements
 constexpr double OwnSightShare = 0.02; // of what differs by the near ones: alike in many links
+constexpr double Negligible = 0.05; // share of the allowance below which what is hidden is left out
+constexpr double Bent = 1.7; // the rule sees four mean normals of a curved cluster, not all
 // What of the unevenness of the kernel over the far elements shows in a row, root mean square.
 constexpr double FarShare = 0.5;
 
@@ -233,7 +235,8 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
       this->Divide(open, !a.Leaf() && (byA >= byB || b.Leaf()), work);
       return;
     }
-    if (sight.Fraction == 0.0)
+    if (sight.Fraction == 0.0 &&
+      std::max(inA, inB) * sight.Error < Negligible * this->SightAllowance)
     {
       return;
     }
@@ -244,8 +247,9 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   link.Kernel = static_cast<float>(
     sight.Fraction * estimate.Exchange / a.Area * (this->Tree[0].Area / b.Area));
   link.Slope = static_cast<float>(estimate.Slope);
-  link.FormA = static_cast<float>(sight.Fraction * std::hypot(estimate.SpreadA, far));
-  link.FormB = static_cast<float>(sight.Fraction * std::hypot(estimate.SpreadB, far));
+  const double bent = a.Flat() && b.Flat() ? 1.0 : Bent;
+  link.FormA = static_cast<float>(bent * sight.Fraction * std::hypot(estimate.SpreadA, far));
+  link.FormB = static_cast<float>(bent * sight.Fraction * std::hypot(estimate.SpreadB, far));
   link.SightA = static_cast<float>(std::hypot(sight.SpreadA, sight.Error));
   link.SightB = static_cast<float>(std::hypot(sight.SpreadB, sight.Error));
   link.Factor = static_cast<float>(inA);
@@ -405,7 +409,11 @@ void ClusterRefiner::LinkElements(
     seen = PairVisibility(this->Occluders, i, p, j, q, Hash64(this->Seed, KeyOf(open.Pair)), first,
       4096, wanted);
     work.Count.Rays += seen.Rays;
-    if (seen.Fraction == 0.0)
+    if (seen.Fraction == 0.0 || seen.Fraction == 1.0)
+    {
+      seen.Error *= open.Mixed ? 0.8 : 0.5; // most of what held it was found alike
+    }
+    if (seen.Fraction == 0.0 && factor * seen.Error < Negligible * this->SightAllowance)
     {
       return;
     }

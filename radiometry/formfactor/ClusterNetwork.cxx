@@ -162,10 +162,14 @@ std::vector<std::int32_t> ClusterNetwork::Components() const
     {
       sets.Join(at, parent);
     }
-    linked[k] = above || this->Begin[k + 1] > this->Begin[k];
+    linked[k] = above;
     for (std::size_t e = this->Begin[k]; e < this->Begin[k + 1]; ++e)
     {
-      sets.Join(at, this->Entries[e].Other);
+      if (this->Entries[e].Kernel > 0.0f)
+      {
+        sets.Join(at, this->Entries[e].Other);
+        linked[k] = 1;
+      }
     }
   }
   std::vector<std::int32_t> leafOf(n), number(this->Tree.Size(), -1), label(n);

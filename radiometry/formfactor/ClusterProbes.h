@@ -23,6 +23,8 @@ struct ClusterProbes
   /// of a point meet sides that do not receive): 0 nowhere, 1 on a part, 2 everywhere. All 0 where
   /// more than a third of the elements would be in part: then sheets were met from behind.
   std::vector<std::uint8_t> Covered;
+  /// Of all rays, weighted by area, how many met a receiving element: the mean row sum, about.
+  double Share = 1.0;
   /// 1 for elements that seem to see nothing but receiving elements: all of some 64 rays from it
   /// and its neighbours in the tree met one.
   std::vector<std::uint8_t> Closed(const ElementTree& tree) const;

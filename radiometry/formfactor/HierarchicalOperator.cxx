@@ -21,8 +21,8 @@ namespace
 
 constexpr double MiB = 1024.0 * 1024.0;
 // Links that leave in much the same direction miss alike: their errors grow together. Found from
-// elements against all pairs on seven scenes (HierarchicalCalibrationTest).
-constexpr double Alike = 2.0;
+// elements against all pairs (HierarchicalAgreementTest).
+constexpr double Alike = 1.8;
 
 StageProgress Part(StageProgress stage, double from, double to)
 {
@@ -58,7 +58,7 @@ struct HierarchicalOperator::Internals
 
   void Build(const OcclusionScene& occluders, const ElementSet& elements,
     const std::vector<std::uint8_t>& covered, const ExchangeOptions& options, bool occlusion,
-    double limit, const StageProgress& stage);
+    double open, double limit, const StageProgress& stage);
   std::vector<double> ScaleStep(const std::vector<std::uint8_t>& fixed, double goal) const;
   /// `fixed`: 1 for rows to be brought to one; becomes 2 for rows that were let go.
   void Close(std::vector<std::uint8_t>& fixed);
@@ -68,7 +68,8 @@ struct HierarchicalOperator::Internals
 
 void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
   const ElementSet& elements, const std::vector<std::uint8_t>& covered,
-  const ExchangeOptions& options, bool occlusion, double limit, const StageProgress& stage)
+  const ExchangeOptions& options, bool occlusion, double open, double limit,
+  const StageProgress& stage)
 {
   const auto start = std::chrono::steady_clock::now();
   const double left = limit - static_cast<double>(this->N * ClusterNetwork::BytesOfElement);
@@ -85,7 +86,7 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
       seconds = std::max(1e-6, 0.7 * options.SecondsLeft - gone.count());
     }
     const ClusterRefiner refiner(this->Network.GetTree(), elements, occluders, options, occlusion,
-      this->Loosened, covered);
+      this->Loosened * open, covered);
     const ClusterRefiner hasty(this->Network.GetTree(), elements, occluders, options, occlusion,
       std::max(4.0 * this->Loosened, 0.3 / options.RelativeTolerance), covered);
     if (this->Network.Link(refiner, hasty, seconds, most, stage))
@@ -312,7 +313,9 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     }
     m.Network = ClusterNetwork(ElementTree(elements, covered), options.Threads, options.Ranks);
   });
-  m.Build(occluders, elements, covered, options, occlusion, limit, Part(stage, 0.05, 0.95));
+  // Errors of many links add by squares: what is wanted of rows that receive little is finer.
+  const double open = probes ? std::sqrt(std::max(0.04, probes->Share)) : 1.0;
+  m.Build(occluders, elements, covered, options, occlusion, open, limit, Part(stage, 0.05, 0.95));
   m.SumRows();
   if (options.Occlusion)
   {
