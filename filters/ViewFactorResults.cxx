@@ -115,7 +115,10 @@ SurfacePatches::SurfacePatches(
   std::size_t cells = 0;
   for (const SceneAdapter::Block& block : blocks)
   {
-    cells = std::max(cells, block.FirstCell + static_cast<std::size_t>(block.Cells));
+    for (vtkIdType c = 0; c < block.Cells; ++c)
+    {
+      cells = std::max(cells, static_cast<std::size_t>(block.Number(c) + 1));
+    }
   }
   this->OfCell.assign(cells, -1);
   if (name.empty())
@@ -137,7 +140,10 @@ SurfacePatches::SurfacePatches(
     vtkDataArray* array = FindPatches(block, name);
     for (vtkIdType c = 0; c < block.Cells; ++c)
     {
-      id[block.FirstCell + static_cast<std::size_t>(c)] = PatchOf(array, c, block.Name + name);
+      if (block.Number(c) >= 0)
+      {
+        id[static_cast<std::size_t>(block.Number(c))] = PatchOf(array, c, block.Name + name);
+      }
     }
   }
   std::copy_if(id.begin(), id.end(), std::back_inserter(this->Ids),
@@ -154,7 +160,7 @@ SurfacePatches::SurfacePatches(
   }
 }
 
-void ViewFactorResults::AddCells(std::size_t first, vtkPolyData* leaf) const
+void ViewFactorResults::AddCells(const SceneAdapter::Block& block, vtkPolyData* leaf) const
 {
   const vtkIdType count = leaf->GetNumberOfCells();
   const auto add = [&](const std::string& name, const std::vector<double>& values) {
@@ -163,7 +169,9 @@ void ViewFactorResults::AddCells(std::size_t first, vtkPolyData* leaf) const
     array->SetNumberOfTuples(count);
     for (vtkIdType c = 0; c < count; ++c)
     {
-      const std::int32_t patch = this->Patches.OfCell[first + static_cast<std::size_t>(c)];
+      const std::int32_t cell = block.Number(c);
+      const std::int32_t patch =
+        cell < 0 ? -1 : this->Patches.OfCell[static_cast<std::size_t>(cell)];
       array->SetValue(c, patch < 0 ? 0.0 : values[static_cast<std::size_t>(patch)]);
     }
     leaf->GetCellData()->AddArray(array);
@@ -215,7 +223,7 @@ void ViewFactorResults::WriteSurface(const std::vector<SceneAdapter::Block>& blo
   for (std::size_t k = 0; k < leaves.size() && k < blocks.size(); ++k)
   {
     leaves[k]->ShallowCopy(blocks[k].Data);
-    this->AddCells(blocks[k].FirstCell, leaves[k]);
+    this->AddCells(blocks[k], leaves[k]);
     this->AddFieldData(leaves[k]);
   }
 }

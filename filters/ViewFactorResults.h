@@ -46,7 +46,7 @@ public:
 
 private:
   void AddFieldData(vtkDataObject* data) const;
-  void AddCells(std::size_t first, vtkPolyData* leaf) const;
+  void AddCells(const SceneAdapter::Block& block, vtkPolyData* leaf) const;
 
   const radiometry::ViewFactorResult& Result;
   const SurfacePatches& Patches;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewFactorFilter.h"
 
+#include "ControllerCommunicator.h"
 #include "SceneAdapter.h"
 #include "ViewFactorResults.h"
 #include "radiometry/formfactor/ViewFactors.h"
@@ -10,6 +11,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -70,6 +72,21 @@ vtkViewFactorFilter::vtkViewFactorFilter()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(4);
+  this->Controller = vtkMultiProcessController::GetGlobalController();
+}
+
+void vtkViewFactorFilter::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Controller != controller)
+  {
+    this->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkViewFactorFilter::GetController()
+{
+  return this->Controller;
 }
 
 vtkViewFactorFilter::~vtkViewFactorFilter()
@@ -147,26 +164,38 @@ int vtkViewFactorFilter::RequestData(
     }
   };
   clear();
+  const auto ranks = ControllerCommunicator::Make(this->Controller);
   try
   {
-    this->Compute(inputs, outputs);
+    this->Compute(ranks.get(), inputs, outputs);
+    if (ranks)
+    {
+      ranks->Finish();
+    }
   }
   catch (const radiometry::Aborted&)
   {
     clear();
+    const std::string failure = ranks ? ranks->Fail("") : std::string();
+    if (!failure.empty()) // of another rank
+    {
+      vtkErrorMacro(<< failure);
+      return 0;
+    }
     return 1;
   }
   catch (const std::exception& error)
   {
     clear();
-    vtkErrorMacro(<< error.what());
+    vtkErrorMacro(<< (ranks ? ranks->Fail(error.what()) : std::string(error.what())));
     return 0;
   }
   this->UpdateProgress(1.0);
   return 1;
 }
 
-void vtkViewFactorFilter::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkViewFactorFilter::Compute(const ControllerCommunicator* ranks,
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const double infinite = std::numeric_limits<double>::max();
   CheckRange("RelativeTolerance", this->RelativeTolerance, 0.0, 1.0, "a number in [0, 1]");
@@ -183,10 +212,12 @@ void vtkViewFactorFilter::Compute(vtkInformationVector** inputs, vtkInformationV
   {
     adapter.AddOccluder(vtkDataObject::GetData(inputs[1], k));
   }
-  const radiometry::Scene scene = adapter.Build();
   // ParaView's word for no array.
   const std::string given = this->PatchArray ? this->PatchArray : "";
   const std::string name = given == "None" ? "" : given;
+  adapter.FurtherArrays = { name };
+  adapter.Gather(ranks);
+  const radiometry::Scene scene = adapter.Build();
   const SurfacePatches patches(adapter.Blocks(), name);
 
   radiometry::ViewFactorOptions options;
@@ -194,12 +225,17 @@ void vtkViewFactorFilter::Compute(vtkInformationVector** inputs, vtkInformationV
   options.AbsoluteTolerance = this->AbsoluteTolerance;
   options.TimeBudget = this->TimeBudget;
   options.MemoryLimit = Bytes(this->MemoryLimit);
+  if (ranks && !(this->MemoryLimit > 0.0))
+  {
+    options.MemoryLimit /= static_cast<std::size_t>(ranks->RanksHere());
+  }
   options.Method = static_cast<radiometry::ViewFactorMethod>(this->Method);
   options.Occlusion = this->Occlusion != OFF;
   options.BackFaces = this->BackFaces != OFF;
   options.Correction = this->Correction;
   options.Up = up;
-  options.Threads = this->NumberOfThreads;
+  options.Threads = ThreadsOfRank(ranks, this->NumberOfThreads);
+  options.Ranks = ranks;
   ProgressOf monitor(this);
   const radiometry::ViewFactorResult result =
     radiometry::ComputeViewFactors(scene, patches.OfCell, patches.Ids.size(), options, &monitor);
@@ -215,7 +251,11 @@ void vtkViewFactorFilter::Compute(vtkInformationVector** inputs, vtkInformationV
        << "; CellsWithoutArea=" << adapter.CellsWithoutArea();
   const auto& sides = scene.Optics.TwoSided;
   const ViewFactorResults writer(result, patches, text.str());
-  writer.WriteSurface(adapter.Blocks(), vtkDataObject::GetData(outputs, 0), input);
+  writer.WriteSurface(adapter.OwnBlocks(), vtkDataObject::GetData(outputs, 0), input);
+  if (ranks && ranks->Rank() != 0)
+  {
+    return; // tables of all ranks are put together by who reads them
+  }
   writer.WriteTable(this->EnvironmentRows, vtkTable::GetData(outputs, 1));
   writer.WriteEffects(options.Occlusion, options.BackFaces,
     std::find(sides.begin(), sides.end(), 1) != sides.end(),

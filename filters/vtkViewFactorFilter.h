@@ -4,6 +4,10 @@
 
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkRadiometryFiltersModule.h"
+#include "vtkSmartPointer.h"
+
+class ControllerCommunicator;
+class vtkMultiProcessController;
 
 /// View factors (form factors) between patches, groups of a surface's cells.
 ///   Ports   0 surface; 1 occluders, which only block (repeatable, optional). Polydata, composite
@@ -135,6 +139,13 @@ public:
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
+  ///@{
+  /// The processes that hold the pieces of the scene (docs/scaling.md); all of them must update the
+  /// filter. Each writes its own cells, the first one the tables. Default: the global controller, so
+  /// the ranks of pvbatch and pvserver. Null: this process alone.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
 
 protected:
   vtkViewFactorFilter();
@@ -161,12 +172,14 @@ protected:
   double SkyUp[3] = { 0.0, 0.0, 1.0 };
   double MetersPerUnit = 1.0;
   int NumberOfThreads = 0;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
   vtkViewFactorFilter(const vtkViewFactorFilter&) = delete;
   void operator=(const vtkViewFactorFilter&) = delete;
 
-  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void Compute(const ControllerCommunicator* ranks, vtkInformationVector** inputs,
+    vtkInformationVector* outputs);
 };
 
 #endif

@@ -7,7 +7,7 @@ from checks import Errors, array, simulation
 from rank_parts import Scene, in_ranks, rank, room, set_array, size, surface
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkradiometry import (vtkAreaLightSource, vtkEnvironmentLightSource, vtkIrradianceFilter,
-                           vtkPointLightSource, vtkSpotLightSource)
+                           vtkPointLightSource, vtkSpotLightSource, vtkViewFactorFilter)
 
 ROOM = room(4)
 CELLS = len(ROOM.polygons)
@@ -279,6 +279,36 @@ def check_tables_have_their_rows_once():
             mine, one = (vtk_to_numpy(g.GetOutputDataObject(2).GetColumnByName(name))
                          for g in (f, whole))
             assert np.allclose(mine, one, rtol=1e-9, atol=0.0), (name, mine, one)
+
+
+def check_view_factors():
+    """The same of groups of cells that several ranks have parts of."""
+    scene = room(2)
+    scene.arrays["Group"] = [c * 5 // len(scene.polygons) for c in range(len(scene.polygons))]
+    part, cells = scene.part([(7 * c) % size() for c in range(len(scene.polygons))], rank())
+    out = []
+    for data, alone in ((part, False), (scene.whole(), True)):
+        f = vtkViewFactorFilter()
+        f.SetInputData(data)
+        f.SetPatchArray("Group")
+        f.SetRelativeTolerance(0.1)
+        if alone:
+            f.SetController(None)
+            f.SetNumberOfThreads(1)
+        f.Update()
+        out.append(f)
+    f, whole = out
+    for name in ("SkyViewFactor", "ViewFactorSum", "SkyViewFactorError"):
+        mine, one = (array(g.GetOutputDataObject(0).GetCellData(), name) for g in out)
+        assert np.abs(one).max() > 0.0
+        assert np.abs(mine - one[cells]).max(initial=0.0) <= 1e-12, name
+    for port in (1, 2, 3):
+        rows = whole.GetOutputDataObject(port).GetNumberOfRows()
+        assert f.GetOutputDataObject(port).GetNumberOfRows() == (rows if rank() == 0 else 0)
+    f.SetPatchArray("missing")
+    errors = Errors(f)
+    f.Update()
+    assert len(errors.messages) == 1 and "missing" in errors.messages[0], errors.messages
 
 
 def check_a_time_budget():
