@@ -62,6 +62,78 @@ std::int32_t TriangleUnder(
   return best;
 }
 
+/// The pieces of a cell as numbers, for other ranks.
+void Write(const CellPieces& cell, std::vector<double>& numbers)
+{
+  numbers.push_back(cell.Full ? 1.0 : 0.0);
+  numbers.push_back(static_cast<double>(cell.Points.size()));
+  for (const Vec3& p : cell.Points)
+  {
+    numbers.insert(numbers.end(), { p.x, p.y, p.z });
+  }
+  numbers.push_back(static_cast<double>(cell.Loops.size()));
+  for (const auto& loop : cell.Loops)
+  {
+    numbers.push_back(static_cast<double>(loop.size()));
+    numbers.insert(numbers.end(), loop.begin(), loop.end());
+  }
+}
+CellPieces Read(const double*& at)
+{
+  CellPieces cell;
+  cell.Full = *at++ != 0.0;
+  cell.Points.resize(static_cast<std::size_t>(*at++));
+  for (Vec3& p : cell.Points)
+  {
+    p = { at[0], at[1], at[2] };
+    at += 3;
+  }
+  cell.Loops.resize(static_cast<std::size_t>(*at++));
+  for (auto& loop : cell.Loops)
+  {
+    loop.resize(static_cast<std::size_t>(*at++));
+    for (auto& corner : loop)
+    {
+      corner = static_cast<std::int32_t>(*at++);
+    }
+  }
+  return cell;
+}
+
+/// Cell c was cut by rank c % Size(): each gets the pieces of all.
+void Exchange(const Communicator& ranks, std::vector<CellPieces>& cells, std::atomic<bool>& expired)
+{
+  const auto size = static_cast<std::size_t>(ranks.Size());
+  const auto own = static_cast<std::size_t>(ranks.Rank());
+  std::vector<double> mine;
+  for (std::size_t c = own; c < cells.size(); c += size)
+  {
+    Write(cells[c], mine);
+  }
+  std::vector<double> lengths(size, 0.0);
+  lengths[own] = static_cast<double>(mine.size());
+  ranks.Largest(lengths.data(), size);
+  std::vector<std::size_t> begin(1, 0);
+  for (const double length : lengths)
+  {
+    begin.push_back(begin.back() + static_cast<std::size_t>(length));
+  }
+  std::vector<double> all(begin.back());
+  std::copy(mine.begin(), mine.end(), all.begin() + static_cast<std::ptrdiff_t>(begin[own]));
+  ranks.Gather(all.data(), begin);
+  for (std::size_t r = 0; r < size; ++r)
+  {
+    const double* at = all.data() + begin[r];
+    for (std::size_t c = r; c < cells.size(); c += size)
+    {
+      cells[c] = Read(at);
+    }
+  }
+  double late = expired ? 1.0 : 0.0;
+  ranks.Largest(&late, 1);
+  expired = late > 0.0;
+}
+
 } // namespace
 
 ShadowPieces CutAlongShadows(const Scene& scene, const OcclusionScene& occluders,
@@ -79,8 +151,15 @@ ShadowPieces CutAlongShadows(const Scene& scene, const OcclusionScene& occluders
       scene, occluders, options, backFaces, std::max<std::size_t>(1, most), preparing);
     StageProgress cutting = stage;
     cutting.Begin = preparing.End;
-    ParallelFor(scene.Cells, options.Threads, cutting,
-      [&](std::size_t c) {
+    // Of several ranks each cuts its share.
+    const std::size_t first =
+      options.Ranks ? static_cast<std::size_t>(options.Ranks->Rank()) : std::size_t{ 0 };
+    const std::size_t step =
+      options.Ranks ? static_cast<std::size_t>(options.Ranks->Size()) : std::size_t{ 1 };
+    const std::size_t count = scene.Cells > first ? (scene.Cells - first + step - 1) / step : 0;
+    ParallelFor(count, options.Threads, cutting,
+      [&](std::size_t k) {
+        const std::size_t c = first + k * step;
         if (options.SecondsLeft > 0.0 && clock.Elapsed() > 0.5 * options.SecondsLeft)
         {
           expired = true;
@@ -91,6 +170,10 @@ ShadowPieces CutAlongShadows(const Scene& scene, const OcclusionScene& occluders
         }
       },
       1e-5);
+    if (options.Ranks)
+    {
+      Exchange(*options.Ranks, cells, expired);
+    }
   }
   ShadowPieces pieces;
   pieces.TimedOut = expired;
