@@ -277,8 +277,7 @@ EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& swit
 bool EffectPlan::CallsForPaths() const
 {
   return this->Paths &&
-    (this->Simulates(Effect::SpecularTransport) ||
-      (this->Panes && this->Simulates(Effect::Transmission)));
+    (this->Simulates(Effect::SpecularTransport) || this->PassesPanes());
 }
 
 bool EffectPlan::LeavesOut() const

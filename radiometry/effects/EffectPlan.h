@@ -82,6 +82,8 @@ public:
   /// True when light has to be followed over mirrors or through panes on its way from surface to
   /// surface: the MonteCarlo method alone does that.
   bool CallsForPaths() const;
+  /// True when light passes panes that stand between something.
+  bool PassesPanes() const { return this->Panes && this->Simulates(Effect::Transmission); }
 
   /// True when something has to be bounded.
   bool LeavesOut() const;

@@ -98,11 +98,11 @@ private:
     std::shared_ptr<const ElementSet> elements, const ExchangeOptions& options);
 
   void Trace(const std::vector<std::int32_t>& rays, const StageProgress& stage);
-  void TraceBlock(std::size_t first, const std::vector<std::int32_t>& rays, Round& round,
-    TracedBlock& traced);
+  void TraceBlock(
+    std::size_t first, const std::vector<std::int32_t>& rays, Round& round, TracedBlock& traced);
   void CheckTraced() const;
-  static void Assemble(std::vector<TracedBlock>& blocks, std::size_t rows, std::size_t width,
-    Round& round);
+  static void Assemble(
+    std::vector<TracedBlock>& blocks, std::size_t rows, std::size_t width, Round& round);
   void CheckMemory(const std::vector<std::int32_t>& rays) const;
   void Summarise(const StageProgress& stage);
   void FindRowSums(const StageProgress& stage);
@@ -121,11 +121,11 @@ private:
   RankShare Share;
   std::size_t Width = 1; // weights of a path
   std::vector<Round> Rounds;
-  std::vector<std::int32_t> RaysOf;  // of all elements
-  std::vector<std::uint8_t> Leaks;   // 1: a path of this rank's element lost something
-  std::vector<std::int32_t> CutOf;   // ... and how many were given up
-  std::vector<double> Gain;          // 1/alpha, elements x Width; empty: all 1
-  std::vector<double> RowSums;       // elements x Width
+  std::vector<std::int32_t> RaysOf; // of all elements
+  std::vector<std::uint8_t> Leaks;  // 1: a path of this rank's element lost something
+  std::vector<std::int32_t> CutOf;  // ... and how many were given up
+  std::vector<double> Gain;         // 1/alpha, elements x Width; empty: all 1
+  std::vector<double> RowSums;      // elements x Width
   std::vector<std::int32_t> Component;
   std::vector<double> Balance;       // w sum(a) of each element and width; empty: none is closed
   std::vector<double> ComponentArea; // sum(a); 0 where not closed

@@ -50,7 +50,7 @@ struct Bundle
 {
   struct Ray
   {
-    std::int32_t Row;   // of this rank; below 0: not kept
+    std::int32_t Row; // of this rank; below 0: not kept
     std::uint8_t Batch;
     std::uint32_t Index; // in the batch's sequence
     std::size_t Slot;
@@ -100,8 +100,7 @@ struct Bundle
       this->SortedFrom[to] = this->From[k];
       this->SortedDirections[to] = this->Directions[k];
     }
-    occluders.Closest(
-      this->SortedFrom.data(), this->SortedDirections.data(), n, this->Hits.data());
+    occluders.Closest(this->SortedFrom.data(), this->SortedDirections.data(), n, this->Hits.data());
   }
 };
 
@@ -179,9 +178,8 @@ void MonteCarloOperator::Trace(const std::vector<std::int32_t>& rays, const Stag
     const std::size_t done = this->Options.Paths && blocks > 0 ? 1 : 0;
     ParallelFor(
       blocks - done, this->Options.Threads, part,
-      [&](std::size_t k) {
-        this->TraceBlock(firstBlock + k + done, rays, round, traced[k + done]);
-      },
+      [&](
+        std::size_t k) { this->TraceBlock(firstBlock + k + done, rays, round, traced[k + done]); },
       5e-7 * BlockElements * std::max(1, most));
     if (this->Width > 1)
     {
@@ -231,8 +229,8 @@ void MonteCarloOperator::CheckTraced() const
   }
 }
 
-void MonteCarloOperator::TraceBlock(std::size_t block, const std::vector<std::int32_t>& rays,
-  Round& round, TracedBlock& traced)
+void MonteCarloOperator::TraceBlock(
+  std::size_t block, const std::vector<std::int32_t>& rays, Round& round, TracedBlock& traced)
 {
   const std::size_t begin = block * BlockElements;
   const std::size_t end = std::min(begin + BlockElements, rays.size());
@@ -267,13 +265,13 @@ void MonteCarloOperator::TraceBlock(std::size_t block, const std::vector<std::in
           slot = element;
           return;
         }
-        traced.Parts.push_back({ ray.Row, ray.Batch, element,
-          static_cast<std::uint32_t>(traced.Weights.size()) });
+        traced.Parts.push_back(
+          { ray.Row, ray.Batch, element, static_cast<std::uint32_t>(traced.Weights.size()) });
         traced.Weights.insert(traced.Weights.end(), w, w + this->Width);
       };
-      const PathOutcome outcome = FollowPath(*this->Occluders, *this->Elements, *paths, hit,
-        bundle.SortedDirections[k], Hash64(ray.Key, 0x70617468ull), ray.Index, weight.data(),
-        counted.data(), count);
+      const PathOutcome outcome =
+        FollowPath(*this->Occluders, *this->Elements, *paths, hit, bundle.SortedDirections[k],
+          Hash64(ray.Key, 0x70617468ull), ray.Index, weight.data(), counted.data(), count);
       this->Leaks[row] |= outcome.Leaks;
       this->CutOf[row] += outcome.Cut;
     }
@@ -294,8 +292,7 @@ void MonteCarloOperator::TraceBlock(std::size_t block, const std::vector<std::in
       const auto count = static_cast<std::uint32_t>(rays[i] / Batches);
       const bool own = this->Share.Has(i);
       const std::size_t row = own ? i - this->Share.Begin : 0;
-      const std::size_t slot =
-        own ? round.Begin[row] + static_cast<std::size_t>(batch) * count : 0;
+      const std::size_t slot = own ? round.Begin[row] + static_cast<std::size_t>(batch) * count : 0;
       const std::uint64_t key =
         Hash64(Hash64(this->Options.Seed, i), static_cast<std::uint64_t>(batch));
       const SobolSequence sequence(key);

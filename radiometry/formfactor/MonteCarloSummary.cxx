@@ -198,7 +198,8 @@ void MonteCarloOperator::FindBalance(const StageProgress& stage)
   }
   const std::size_t components = n == 0
     ? 0
-    : static_cast<std::size_t>(*std::max_element(this->Component.begin(), this->Component.end())) + 1;
+    : static_cast<std::size_t>(*std::max_element(this->Component.begin(), this->Component.end())) +
+      1;
   std::vector<std::uint8_t> closed(components, 1);
   for (std::size_t i = 0; i < n; ++i)
   {

@@ -15,8 +15,11 @@ namespace radiometry
 /// How a path ended.
 struct PathOutcome
 {
-  bool Leaks = false; // some of it was lost: into the open, onto what does not receive, in a lobe
-  bool Cut = false;   // it was followed no further
+  bool Leaks = false;   // some of it was lost: into the open, onto what does not receive, in a lobe
+  bool Cut = false;     // it was followed no further
+  bool Escapes = false; // into the open, with what is left of its weight ...
+  Vec3 Direction;       // ... in this direction
+  int Reflections = 0;
 };
 
 /// After so many mirrors a path is taken to count all it carries where it is.
@@ -76,10 +79,13 @@ PathOutcome FollowPath(const OcclusionScene& occluders, const ElementSet& elemen
       }
       return outcome;
     }
+    outcome.Reflections += fate == SpecularSurfaces::Fate::Transmitted ? 0 : 1;
     hit = occluders.Closest(place, direction);
     if (hit.Triangle < 0)
     {
       outcome.Leaks = true;
+      outcome.Escapes = true;
+      outcome.Direction = direction;
       return outcome;
     }
   }

@@ -97,8 +97,8 @@ SpecularSurfaces::SpecularSurfaces(
     {
       const auto cell = static_cast<std::size_t>(scene.TriangleCell[t]);
       const std::vector<double>& reflectance = Of(optics.SpecularReflectance, side);
-      const bool there = side == 0 ||
-        (backFaces && cell < optics.TwoSided.size() && optics.TwoSided[cell] != 0);
+      const bool there =
+        side == 0 || (backFaces && cell < optics.TwoSided.size() && optics.TwoSided[cell] != 0);
       if (!there || reflectance.empty() || !some(reflectance.data() + cell * bands))
       {
         continue;
@@ -194,8 +194,7 @@ double SpecularSurfaces::Escaping(double exponent, double cosine) const
     return like * (v[0] + f * (v[1] - v[0]));
   };
   const auto above = static_cast<std::size_t>(
-    std::lower_bound(this->TableAt.begin(), this->TableAt.end(), exponent) -
-    this->TableAt.begin());
+    std::lower_bound(this->TableAt.begin(), this->TableAt.end(), exponent) - this->TableAt.begin());
   if (above == this->TableAt.size())
   {
     return value(above - 1);
@@ -217,8 +216,8 @@ double SpecularSurfaces::Left(std::int32_t triangle, bool front, std::size_t ban
   {
     return 1.0;
   }
-  const double left = 1.0 - this->Share(face->Reflected[front ? 0 : 1], band) -
-    this->Share(face->Transmitted, band);
+  const double left =
+    1.0 - this->Share(face->Reflected[front ? 0 : 1], band) - this->Share(face->Transmitted, band);
   return left > 1e-9 ? left : 0.0; // shares that sum to one but for rounding
 }
 
@@ -233,6 +232,12 @@ bool SpecularSurfaces::Mirror(std::int32_t triangle, bool front) const
   const Face* face = this->FaceAt(triangle);
   const std::size_t side = front ? 0 : 1;
   return face && face->Reflected[side] >= 0 && face->Lobe[side] < 0;
+}
+
+double SpecularSurfaces::Transmittance(std::int32_t triangle, std::size_t band) const
+{
+  const Face* face = this->FaceAt(triangle);
+  return face ? this->Share(face->Transmitted, band) : 0.0;
 }
 
 RayEnd SpecularSurfaces::Place(const SurfaceHit& hit) const
@@ -277,8 +282,8 @@ SpecularSurfaces::Fate SpecularSurfaces::Continue(const SurfaceHit& hit,
   for (std::size_t b = 0; b < width; ++b)
   {
     const double on = ends ? 0.0 : weight[b] * this->Share(row, b) / chance;
-    counted[b] = split ? std::max(0.0, weight[b] - on)
-                       : weight[b] * this->Left(hit.Triangle, hit.Front, b);
+    counted[b] =
+      split ? std::max(0.0, weight[b] - on) : weight[b] * this->Left(hit.Triangle, hit.Front, b);
     weight[b] = on;
   }
   if (ends)
@@ -289,7 +294,26 @@ SpecularSurfaces::Fate SpecularSurfaces::Continue(const SurfaceHit& hit,
   {
     return Fate::Transmitted;
   }
-  const Vec3 normal = hit.Front ? face.Normal : -face.Normal;
+  return this->Bounce(face, side, u, direction);
+}
+
+SpecularSurfaces::Fate SpecularSurfaces::Reflect(
+  const SurfaceHit& hit, const std::array<double, 4>& u, Vec3& direction, double* weight) const
+{
+  const Face& face = *this->FaceAt(hit.Triangle);
+  const std::size_t side = hit.Front ? 0 : 1;
+  for (std::size_t b = 0; b < this->Width(); ++b)
+  {
+    weight[b] *= this->Share(face.Reflected[side], b);
+  }
+  return this->Bounce(face, side, u, direction);
+}
+
+/// The way on of what is reflected.
+SpecularSurfaces::Fate SpecularSurfaces::Bounce(
+  const Face& face, std::size_t side, const std::array<double, 4>& u, Vec3& direction) const
+{
+  const Vec3 normal = side == 0 ? face.Normal : -face.Normal;
   const double cosine = std::min(1.0, std::max(0.0, -Dot(normal, direction)));
   const Vec3 image = Normalized(direction + 2.0 * cosine * normal);
   if (face.Lobe[side] < 0)

@@ -47,6 +47,8 @@ public:
   /// rho_s of a side of a triangle, in a band, and whether it is a perfect mirror.
   double Reflectance(std::int32_t triangle, bool front, std::size_t band) const;
   bool Mirror(std::int32_t triangle, bool front) const;
+  /// tau of a triangle, in a band.
+  double Transmittance(std::int32_t triangle, std::size_t band) const;
 
   bool GoesOn(const SurfaceHit& hit) const
   {
@@ -55,10 +57,10 @@ public:
 
   enum class Fate : std::uint8_t
   {
-    Ended,      // what the surface sends counts
-    Absorbed,   // by a lobe below the horizon
+    Ended,    // what the surface sends counts
+    Absorbed, // by a lobe below the horizon
     Mirrored,
-    Scattered,  // by a lobe
+    Scattered, // by a lobe
     Transmitted
   };
   /// Decides on a path that comes along the unit vector `direction` and met `hit`, from four numbers in (0, 1).
@@ -66,6 +68,11 @@ public:
   /// `weight` before: it is split between the two). `direction` becomes the way on.
   Fate Continue(const SurfaceHit& hit, const std::array<double, 4>& u, Vec3& direction,
     double* weight, double* counted) const;
+
+  /// The same for a path that must be reflected: `weight` is multiplied by rho_s. Absorbed where the
+  /// lobe sends it below the horizon.
+  Fate Reflect(
+    const SurfaceHit& hit, const std::array<double, 4>& u, Vec3& direction, double* weight) const;
 
   /// The place of a hit on a surface where paths go on: where the next ray starts.
   RayEnd Place(const SurfaceHit& hit) const;
@@ -81,6 +88,8 @@ private:
     std::array<std::int32_t, 2> Lobe{ -1, -1 };      // index into Exponents; -1: mirror
     std::int32_t Transmitted = -1;
   };
+  Fate Bounce(
+    const Face& face, std::size_t side, const std::array<double, 4>& u, Vec3& direction) const;
   std::int32_t AddRow(const double* values);
   void MakeLobes(const std::vector<double>& exponents);
   /// a(theta)/rho_s.
@@ -101,9 +110,9 @@ private:
   std::vector<std::int32_t> FaceOf; // by triangle; -1: opaque and matt
   std::vector<Face> Faces;
   std::vector<double> Shares;
-  std::vector<double> Exponents;  // of the faces' lobes
-  std::vector<double> TableAt;    // exponents tabulated, ascending
-  std::vector<double> Table;      // of each, TableSize values
+  std::vector<double> Exponents; // of the faces' lobes
+  std::vector<double> TableAt;   // exponents tabulated, ascending
+  std::vector<double> Table;     // of each, TableSize values
 };
 
 } // namespace radiometry

@@ -88,6 +88,14 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   abilities.Emission = true;
   abilities.Environment = true;
   abilities.Transmission = true;
+  abilities.Tolerance = options.RelativeTolerance;
+  const bool rays =
+    options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo;
+  const bool unoccluded = switches[static_cast<int>(Effect::Occlusion)] == EffectSwitch::Off;
+  abilities.Paths = rays && !unoccluded;
+  abilities.NoPaths = !rays ? "only the MonteCarlo method follows light there"
+    : unoccluded            ? "where Occlusion is off, rays meet nothing to go on from"
+                            : "";
   const bool freePoints =
     std::any_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectPlan plan(scene, switches, abilities, freePoints);
@@ -100,6 +108,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   options.Attenuation = plan.Simulates(Effect::Attenuation);
   options.Environment = plan.Simulates(Effect::Environment);
   options.Transmission = plan.Simulates(Effect::Transmission);
+  options.SpecularTransport = plan.Simulates(Effect::SpecularTransport);
+  options.PathTransmission = abilities.Paths && plan.PassesPanes();
 
   PlannedRadiosity out;
   RadiosityCache own;

@@ -3,6 +3,8 @@
 
 #include "radiometry/formfactor/GroupedOperator.h"
 #include "radiometry/solver/ElementOverlap.h"
+#include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/InputError.h"
 #include "radiometry/solver/RadiositySolver.h"
 
 #include <algorithm>
@@ -52,6 +54,22 @@ ExchangeOptions RadiosityContext::Exchange() const
   o.Threads = this->Options.Threads;
   o.Ranks = this->Options.Ranks;
   o.Seed = this->Options.Seed;
+  o.Paths = this->Paths;
+  return o;
+}
+
+SpecularLightOptions RadiosityContext::Mirrored(double secondsLeft) const
+{
+  SpecularLightOptions o;
+  o.RelativeTolerance = 0.5 * this->Options.RelativeTolerance;
+  o.AbsoluteTolerance = 0.5 * this->Options.AbsoluteTolerance;
+  o.SpotShape = this->Options.SpotShape;
+  o.Attenuation = this->Options.Attenuation;
+  o.Environment = this->Options.Environment;
+  o.SecondsLeft = this->Options.TimeBudget > 0.0 ? std::max(1e-3, 0.5 * secondsLeft) : 0.0;
+  o.Threads = this->Options.Threads;
+  o.Seed = this->Options.Seed;
+  o.Ranks = this->Options.Ranks;
   return o;
 }
 
@@ -211,12 +229,18 @@ void RadiosityLevel::Illuminate(const RadiosityContext& context, double secondsL
   const std::size_t nb = context.Bands;
   const std::vector<Patch>& patches = this->Elements.GetPatches();
   this->TimedOut = false;
+  this->Mirrored = {};
+  this->Straight.clear();
+  this->StraightError.clear();
   if (!earlier || earlier->Emitters.Empty() != this->Emitters.Empty())
   {
     this->AddLights(context, patches, -1.0, secondsLeft, stage, this->First, this->FirstError);
   }
   else
   {
+    const Values& before = earlier->Straight.empty() ? earlier->First : earlier->Straight;
+    const Values& beforeError =
+      earlier->Straight.empty() ? earlier->FirstError : earlier->StraightError;
     const std::vector<ElementOrigin> origin = FindOrigins(this->Elements, earlier->Elements);
     std::vector<std::size_t> fresh;
     std::vector<Patch> those;
@@ -226,9 +250,9 @@ void RadiosityLevel::Illuminate(const RadiosityContext& context, double secondsL
       bool kept = origin[e].Same;
       for (std::size_t b = 0; kept && b < nb; ++b)
       {
-        this->First[e * nb + b] = earlier->First[from + b];
-        this->FirstError[e * nb + b] = earlier->FirstError[from + b];
-        kept = !earlier->TimedOut || earlier->FirstError[from + b] <= good * earlier->First[from + b];
+        this->First[e * nb + b] = before[from + b];
+        this->FirstError[e * nb + b] = beforeError[from + b];
+        kept = !earlier->TimedOut || beforeError[from + b] <= good * before[from + b];
       }
       if (!kept)
       {
@@ -249,9 +273,50 @@ void RadiosityLevel::Illuminate(const RadiosityContext& context, double secondsL
   this->DirectError = this->FirstError;
 }
 
+void RadiosityLevel::AddMirrored(
+  const RadiosityContext& context, double secondsLeft, const StageProgress& stage)
+{
+  if (!context.Paths)
+  {
+    return;
+  }
+  StageProgress part = stage;
+  part.Name = "light over mirrors";
+  this->Straight = this->First;
+  this->StraightError = this->FirstError;
+  this->Mirrored = FindSpecularLight(context.Geometry, context.Occluders, this->Elements,
+    this->Emitters, *context.Paths, this->First, context.Mirrored(secondsLeft), part);
+  for (std::size_t k = 0; k < this->First.size(); ++k)
+  {
+    this->First[k] += this->Mirrored.Irradiance[k];
+    this->FirstError[k] = std::hypot(this->FirstError[k], this->Mirrored.Error[k]);
+  }
+  this->Irradiance = this->First;
+  this->DirectError = this->FirstError;
+}
+
+void RadiosityLevel::CheckEmission(const RadiosityContext& context) const
+{
+  if (!context.Paths || !this->Emitters.Empty())
+  {
+    return;
+  }
+  for (std::size_t k = 0; k < this->Optics.Exitance.size(); ++k)
+  {
+    const Patch& p = this->Elements.GetPatches()[k / context.Bands];
+    const std::size_t band = context.Paths->Width() > 1 ? k % context.Bands : 0;
+    if (this->Optics.Exitance[k] > 0.0 && !(context.Paths->Left(p.Triangle, p.Side == 0, band) > 0.0))
+    {
+      throw InputError(names::EmittedExitance, p.Cell, this->Optics.Exitance[k],
+        "0 where SpecularReflectance and Transmittance sum to 1: what sends all on does not emit");
+    }
+  }
+}
+
 void RadiosityLevel::Solve(
   const RadiosityContext& context, bool discretise, const StageProgress& stage)
 {
+  this->CheckEmission(context);
   const std::size_t n = this->Elements.Size();
   const std::size_t values = n * context.Bands;
   const int bands = static_cast<int>(context.Bands);

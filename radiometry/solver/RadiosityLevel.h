@@ -4,6 +4,7 @@
 #include "radiometry/formfactor/ElementSet.h"
 #include "radiometry/irradiance/EmitterIrradiance.h"
 #include "radiometry/formfactor/FormFactorOperator.h"
+#include "radiometry/formfactor/LightPaths.h"
 #include "radiometry/formfactor/MonteCarloOperator.h"
 #include "radiometry/irradiance/DirectIrradiance.h"
 #include "radiometry/solver/ElementOptics.h"
@@ -18,6 +19,14 @@ namespace radiometry
 /// What every step of a radiosity run knows.
 struct RadiosityContext
 {
+  RadiosityContext(
+    const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options)
+    : Geometry(scene)
+    , Occluders(occluders)
+    , Options(options)
+  {
+  }
+
   const Scene& Geometry;
   const OcclusionScene& Occluders;
   RadiosityOptions Options;
@@ -25,11 +34,13 @@ struct RadiosityContext
   std::size_t Memory = 0;  // bytes
   bool Convex = false;     // nothing can hide anything
   double Tolerance = 0.01; // of the exchange at the present step, relative
+  std::shared_ptr<const SpecularSurfaces> Paths; // over which light is followed; null: it is not
 
   ExchangeOptions Exchange() const;
   /// Exchange with emitters and points, for which rays are of no use in a convex scene.
   ExchangeOptions Sight() const;
   DirectOptions Direct(double secondsLeft) const;
+  SpecularLightOptions Mirrored(double secondsLeft) const;
 };
 
 /// Half-widths that cover 95 %: of a normal error, and of one estimated from eight batches by rays
@@ -55,6 +66,9 @@ struct RadiosityLevel
   /// (of the same lights; may be null) has too keep what was found there.
   void Illuminate(const RadiosityContext& context, double secondsLeft,
     const RadiosityLevel* earlier, const StageProgress& stage);
+
+  /// Adds the light of lights over mirrors to First: once, when the elements are those to solve on.
+  void AddMirrored(const RadiosityContext& context, double secondsLeft, const StageProgress& stage);
 
   /// Elements whose first light differs from their neighbours' by more flux than the tolerance
   /// allows (a spot's edge, a shadow, light caught in a gap): worth dividing before anything
@@ -83,6 +97,9 @@ struct RadiosityLevel
   EmitterSet Emitters; // treated as lights; empty: emission goes through the operator
   Values First;        // irradiance by lights and such emitters
   Values FirstError;
+  SpecularLight Mirrored; // what of First comes over mirrors; empty: nothing
+  Values Straight;        // First without it, and its error; empty: as First
+  Values StraightError;
   Values Leaving;     // radiosity but for what Emitters treat
   Values Gathered;    // irradiance by what leaves
   Values Irradiance;  // all
@@ -107,6 +124,7 @@ struct RadiosityLevel
 private:
   void AddLights(const RadiosityContext& context, const std::vector<Patch>& patches,
     double knownMean, double secondsLeft, const StageProgress& stage, Values& light, Values& error);
+  void CheckEmission(const RadiosityContext& context) const;
   void PoolSampling(const RadiosityContext& context);
   void Discretise(const RadiosityContext& context, const DiffuseScattering& scattering,
     const Values& source, const StageProgress& stage);

@@ -21,7 +21,7 @@ const char* const MetOutcome = "the tolerance is met by 95 % of the cells and of
 
 RadiosityRun::RadiosityRun(const Scene& scene, const OcclusionScene& occluders,
   const RadiosityOptions& options, RadiosityCache* cache)
-  : Context{ scene, occluders, options }
+  : Context(scene, occluders, options)
   , Cache(cache)
 {
   this->Result.Convergence.PartNames = { "Direct", "FormFactor", "Visibility", "Discretisation",
@@ -29,6 +29,13 @@ RadiosityRun::RadiosityRun(const Scene& scene, const OcclusionScene& occluders,
   this->Context.Bands = static_cast<std::size_t>(scene.Optics.Bands);
   this->Context.Memory = options.MemoryLimit ? options.MemoryLimit : DefaultMemory;
   this->Context.Convex = cache ? cache->Convex() : FindConvexity(scene) != Convexity::General;
+  if (options.FollowsPaths() &&
+    (options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo))
+  {
+    const auto paths = std::make_shared<const SpecularSurfaces>(
+      scene, options.SpecularTransport, options.PathTransmission, options.BackFaces);
+    this->Context.Paths = paths->Empty() ? nullptr : paths;
+  }
 }
 
 RadiosityRun::~RadiosityRun()
@@ -83,6 +90,12 @@ void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage
   for (;;)
   {
     this->Result.Method = level->Method;
+    if (this->Context.Paths && level->Mirrored.Irradiance.empty())
+    {
+      this->Timed("light over mirrors", [&] {
+        level->AddMirrored(this->Context, this->Left(), part(0.1, 0.2, "light over mirrors"));
+      });
+    }
     if (!level->F)
     {
       this->Timed("exchange", [&] { this->BuildOperator(*level, part(0.2, 0.8, "exchange")); });

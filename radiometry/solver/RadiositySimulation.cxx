@@ -79,6 +79,7 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   if (lightsOnly)
   {
     m.Timed("direct light", [&] { level->Illuminate(m.Context, m.Left(), nullptr, stage); });
+    m.Timed("light over mirrors", [&] { level->AddMirrored(m.Context, m.Left(), stage); });
     EvaluateRadiosity(m.Context, *level, "direct light", m.Result, nullptr);
     m.Finest = std::move(level);
     m.Result.MethodWhy = "none: nothing is reflected";
@@ -118,11 +119,22 @@ FieldValues RadiositySimulation::IrradianceAt(
   if (!level.Emitters.Empty())
   {
     const EmitterResult e = ComputeEmitterIrradiance(m.Context.Geometry, m.Context.Occluders,
-      points, level.Emitters, exchange, part(0.2, 0.4, "emitters at points"));
+      points, level.Emitters, exchange, part(0.2, 0.3, "emitters at points"));
     for (std::size_t k = 0; k < out.Values.size(); ++k)
     {
       out.Values[k] += e.Irradiance[k];
       out.Errors[k] = std::hypot(out.Errors[k], e.Error[k]);
+    }
+  }
+  if (!level.Mirrored.Irradiance.empty())
+  {
+    const SpecularLight mirrored = SpecularLightAt(m.Context.Geometry, m.Context.Occluders,
+      level.Elements, level.Mirrored, level.Emitters, *m.Context.Paths, points,
+      m.Context.Mirrored(m.Left()), part(0.3, 0.4, "light over mirrors at points"));
+    for (std::size_t k = 0; k < out.Values.size(); ++k)
+    {
+      out.Values[k] += mirrored.Irradiance[k];
+      out.Errors[k] = std::hypot(out.Errors[k], mirrored.Error[k]);
     }
   }
   if (level.F)

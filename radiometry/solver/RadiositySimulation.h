@@ -53,14 +53,15 @@ struct RadiosityOptions
   bool SpotShape = true;
   bool Attenuation = true;
   bool Environment = true;
-  bool Transmission = true; // of the lights' light; what surfaces send stops at panes
+  bool Transmission = true; // of the lights' light
   bool SpecularTransport = false; // light over mirrors is followed
+  bool PathTransmission = false;  // what surfaces send is followed through panes
   int Threads = 0; // 0: all
   std::uint64_t Seed = 0;
   const Communicator* Ranks = nullptr; // that compute together; null: this process alone
 
-  /// Whether what surfaces send is followed over mirrors.
-  bool FollowsPaths() const { return this->SpecularTransport; }
+  /// Whether what surfaces send is followed over mirrors or through panes: by rays alone.
+  bool FollowsPaths() const { return this->SpecularTransport || this->PathTransmission; }
 };
 
 /// Area-weighted mean over the cells of each part of IrradianceError, brightest band, W/m^2.
@@ -97,8 +98,9 @@ struct RadiosityResult
 /// Direct light, emission and interreflection on a scene.
 ///   Reads    scene.Lights, GlobalAmbient (as light that arrives), Optics.DiffuseReflectance,
 ///            EmittedExitance, TwoSided (front and back)
-///   Model    B = M + rho E, E = E_lights + int F dB: diffuse radiosity; specular and transmitted
-///            parts are not followed
+///   Model    B = M + rho E, E = E_lights + int F dB: diffuse radiosity. Where paths are followed,
+///            E holds what comes over mirrors and through panes: of lights (LightPaths.h), of surfaces
+///            (MonteCarloOperator.h)
 ///   Values   averages over the cells; E of a cell of many elements is their area-weighted mean
 ///   Error    half-width that covers 95 % of values: direct light, exchange, visibility (twice its
 ///            standard error), discretisation (difference from the solve on elements merged by

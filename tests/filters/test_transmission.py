@@ -135,14 +135,19 @@ def test_edges_of_panes_can_be_made_geometry():
     close(got[shade], 0.25 * square, 1e-12)
 
 
-def test_radiosity_passes_the_lights_light_only():
+def test_methods_of_pairs_pass_the_lights_light_only():
     # Floor under a pane; the pane sends no light back: the floor's irradiance is direct.
     data = plane(2)
     f = run(data, lamp(), occluders=[pane(0.5, size=8.0, z=1.0)], kind=vtkRadiosityFilter,
-            DiffuseReflectance=0.4)
+            DiffuseReflectance=0.4, Method=1)
     close(cell_values(f, "Irradiance"), 0.5 * values(data, lamp()), 1e-9)
     decision, why, bound = row(f, "Transmission")
     assert decision == "simulated" and "does not pass" in why and bound > 0.0, (decision, why, bound)
+    # Rays pass it both ways (test_specular.py), and nothing is left out.
+    f = run(data, lamp(), occluders=[pane(0.5, size=8.0, z=1.0)], kind=vtkRadiosityFilter,
+            DiffuseReflectance=0.4)
+    close(cell_values(f, "Irradiance"), 0.5 * values(data, lamp()), 1e-9)
+    assert row(f, "Transmission")[2] == 0.0
 
 
 def test_what_cannot_be_a_transmittance():
