@@ -17,6 +17,8 @@ constexpr std::int64_t ItemPairs = 8192;
 constexpr std::int32_t ItemElements = 2048;
 // Fewer pairs than this are taken one by one even where their clusters are apart.
 constexpr std::int64_t FewPairs = 16;
+// Clusters of this share of their group are sampled even where they touch.
+constexpr double SmallShare = 1.0 / 64.0;
 // A row of more strata than this is left to all threads together.
 constexpr std::size_t LocalStrata = 64;
 // Of what stands in a shaft, so many are looked at.
@@ -195,11 +197,15 @@ private:
       }
       open = proof == Proof::Visible;
     }
-    if (P.Hierarchical && P.Apart(na, nb) &&
-      static_cast<std::int64_t>(na.Size()) * nb.Size() > FewPairs)
+    if (P.Hierarchical && static_cast<std::int64_t>(na.Size()) * nb.Size() > FewPairs)
     {
-      this->Add(a, b, -1.0, open);
-      return;
+      const bool apart = P.Apart(na, nb);
+      if (apart || P.Small(na, nb))
+      {
+        this->Add(a, b, -1.0, open);
+        this->Strata.back().Near = !apart;
+        return;
+      }
     }
     if (nb.Single() || (!na.Single() && na.Radius > nb.Radius))
     {
@@ -272,6 +278,14 @@ bool ViewFactorPairs::Apart(const PatchTree::Node& a, const PatchTree::Node& b) 
 {
   const double reach = a.Radius + b.Radius;
   return LengthSquared(b.Center - a.Center) > 6.25 * reach * reach;
+}
+
+/// Small beside their groups: not worth dividing before samples say so.
+bool ViewFactorPairs::Small(const PatchTree::Node& a, const PatchTree::Node& b) const
+{
+  const double whole = std::min(this->Tree[this->Tree.Root(a.FirstGroup)].Area,
+    this->Tree[this->Tree.Root(b.FirstGroup)].Area);
+  return std::min(a.Area, b.Area) <= SmallShare * whole;
 }
 
 ViewFactorPairs::Proof ViewFactorPairs::Prove(
@@ -427,7 +441,10 @@ std::vector<GroupExchange> ViewFactorPairs::Compute(
   out.reserve(rows.size());
   for (const Row& row : rows)
   {
-    if (row.Exchange.Value > 0.0)
+    // Facets that rounding alone turns toward each other (of one quad, say) do not see each other.
+    const double least = std::min(this->Tree[this->Tree.Root(row.Exchange.I)].Area,
+      this->Tree[this->Tree.Root(row.Exchange.J)].Area);
+    if (row.Exchange.Value > 1e-14 * least)
     {
       out.push_back(row.Exchange);
     }

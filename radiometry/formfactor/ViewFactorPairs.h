@@ -7,6 +7,7 @@
 #include "radiometry/visibility/Blockers.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -39,6 +40,7 @@ struct ExchangeStratum
   std::uint32_t Round = 0;
   std::int64_t Rays = 0; // of all rounds
   bool Open = false;     // nothing stands between
+  bool Near = false;     // a cluster pair with triangles that touch or nearly so
   bool AnyVisible = false, AnyHidden = false;
 
   bool Agreed() const { return !this->AnyVisible || !this->AnyHidden; }
@@ -87,12 +89,15 @@ private:
   };
 
   bool Apart(const PatchTree::Node& a, const PatchTree::Node& b) const;
+  bool Small(const PatchTree::Node& a, const PatchTree::Node& b) const;
   Proof Prove(const PatchTree::Node& a, const PatchTree::Node& b) const;
   /// Pairs of a node of one group with a node of any; `own`: of the same group.
   void MakeItems(std::int32_t a, std::int32_t b, bool own, std::vector<Item>& items) const;
   void MakeOwnItems(std::int32_t a, std::vector<Item>& items) const;
   double Goal(const GroupExchange& row) const;
   void Sample(ExchangeStratum& stratum) const;
+  void SamplePoint(ExchangeStratum& stratum, int set, const std::array<double, 4>& u) const;
+  double NearFraction(std::int32_t a, std::int32_t b, const std::array<double, 4>& u) const;
   double Value(const ExchangeStratum& stratum) const;
   double Variance(const ExchangeStratum& stratum) const;
   double Deviation(const ExchangeStratum& stratum) const;

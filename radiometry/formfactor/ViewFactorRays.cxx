@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr std::uint32_t TaskRays = 2048;
-constexpr double Student = 3.182; // 95 % at three degrees of freedom
+constexpr double Student = 2.131; // 95 % at fifteen degrees of freedom
 
 } // namespace
 

@@ -14,7 +14,7 @@
 namespace radiometry
 {
 
-/// A share of a group's rays, by four independent sequences.
+/// A share of a group's rays, by independent sequences.
 struct RayShare
 {
   double Value = 0.0;
@@ -25,7 +25,7 @@ struct RayShare
 class ViewFactorRays
 {
 public:
-  static constexpr int Sets = 4;
+  static constexpr int Sets = 16;
   enum Fate
   {
     Sky,     // meets nothing, above the horizon

@@ -15,6 +15,7 @@ constexpr double Pi = 3.14159265358979323846;
 constexpr int Sets = ExchangeStratum::Sets;
 constexpr double MostPoints = 1u << 20;  // of each sequence in a row's round
 constexpr double MostAgreed = 1024;      // ... of a stratum all of whose rays agree
+constexpr double LookedShare = 0.4;      // of the goal: what one ray that disagreed may add
 constexpr std::size_t FewStrata = 8;     // of a row whose strata must each be looked at well
 
 /// What 95 % of Student's t with so many degrees of freedom stay below (within 1 %).
@@ -58,36 +59,93 @@ void ViewFactorPairs::Sample(ExchangeStratum& stratum) const
     const SobolSequence sequence(Hash64(key, static_cast<std::uint64_t>(set)));
     for (std::uint32_t k = 0; k < stratum.Done; ++k)
     {
-      const auto u = sequence(k);
-      double shareA = u[0], shareB = u[2];
-      const std::int32_t elementA = this->Tree.Pick(a, shareA);
-      const std::int32_t elementB = this->Tree.Pick(b, shareB);
-      const ExchangePatch& shapeA = this->Tree.Shape(elementA);
-      const ExchangePatch& shapeB = this->Tree.Shape(elementB);
-      const Vec3 x = TrianglePoint(shapeA.Corners, shareA, u[1]);
-      const Vec3 y = TrianglePoint(shapeB.Corners, shareB, u[3]);
-      const Vec3 r = y - x;
-      const double r2 = LengthSquared(r);
-      const double kernel =
-        std::max(0.0, Dot(shapeA.Normal, r)) * std::max(0.0, -Dot(shapeB.Normal, r)) / (r2 * r2);
-      if (!(kernel > 0.0))
-      {
-        continue;
-      }
-      stratum.Weight[set] += kernel;
-      if (!stratum.Open &&
-        this->Occluders.Occluded(
-          { x, this->Tree.Triangle(elementA) }, { y, this->Tree.Triangle(elementB) }))
-      {
-        stratum.AnyHidden = true;
-      }
-      else
-      {
-        stratum.AnyVisible = true;
-        stratum.Visible[set] += kernel;
-      }
+      this->SamplePoint(stratum, set, sequence(k));
     }
   }
+}
+
+void ViewFactorPairs::SamplePoint(
+  ExchangeStratum& stratum, int set, const std::array<double, 4>& u) const
+{
+  double shareA = u[0], shareB = u[2];
+  const std::int32_t elementA = this->Tree.Pick(this->Tree[stratum.A], shareA);
+  const std::int32_t elementB = this->Tree.Pick(this->Tree[stratum.B], shareB);
+  const ExchangePatch& shapeA = this->Tree.Shape(elementA);
+  const ExchangePatch& shapeB = this->Tree.Shape(elementB);
+  if (stratum.Near)
+  {
+    // Where two triangles are near each other the kernel has a peak: its mean over both in its place.
+    const double reach = 1.5 * (shapeA.Radius + shapeB.Radius);
+    if (LengthSquared(shapeB.Center - shapeA.Center) < reach * reach)
+    {
+      const double mean = Pi * PairExchange(shapeA, shapeB, this->PairTolerance).Value /
+        (shapeA.Area * shapeB.Area);
+      if (mean > 0.0)
+      {
+        const double fraction =
+          stratum.Open ? 1.0 : this->NearFraction(elementA, elementB, { shareA, u[1], shareB, u[3] });
+        stratum.Weight[set] += mean;
+        stratum.Visible[set] += mean * fraction;
+        stratum.AnyVisible = stratum.AnyVisible || fraction > 0.0;
+        stratum.AnyHidden = stratum.AnyHidden || fraction < 1.0;
+      }
+      return;
+    }
+  }
+  const Vec3 x = TrianglePoint(shapeA.Corners, shareA, u[1]);
+  const Vec3 y = TrianglePoint(shapeB.Corners, shareB, u[3]);
+  const Vec3 r = y - x;
+  const double r2 = LengthSquared(r);
+  const double kernel =
+    std::max(0.0, Dot(shapeA.Normal, r)) * std::max(0.0, -Dot(shapeB.Normal, r)) / (r2 * r2);
+  if (!(kernel > 0.0))
+  {
+    return;
+  }
+  stratum.Weight[set] += kernel;
+  if (!stratum.Open &&
+    this->Occluders.Occluded(
+      { x, this->Tree.Triangle(elementA) }, { y, this->Tree.Triangle(elementB) }))
+  {
+    stratum.AnyHidden = true;
+  }
+  else
+  {
+    stratum.AnyVisible = true;
+    stratum.Visible[set] += kernel;
+  }
+}
+
+/// The visible share of the exchange of two triangles that are near each other, from four points.
+double ViewFactorPairs::NearFraction(
+  std::int32_t a, std::int32_t b, const std::array<double, 4>& u) const
+{
+  const ExchangePatch& shapeA = this->Tree.Shape(a);
+  const ExchangePatch& shapeB = this->Tree.Shape(b);
+  double weight = 0.0, visible = 0.0;
+  for (int k = 0; k < 4; ++k)
+  {
+    // Shifted by halves: a lattice in four dimensions.
+    const auto shifted = [&](int d) {
+      const double v = u[d] + 0.5 * ((d < 2 ? k : k >> 1) & 1) + (d % 2 == 0 ? 0.25 * (k & 1) : 0.0);
+      return v - std::floor(v);
+    };
+    const Vec3 x = TrianglePoint(shapeA.Corners, shifted(0), shifted(1));
+    const Vec3 y = TrianglePoint(shapeB.Corners, shifted(2), shifted(3));
+    const Vec3 r = y - x;
+    const double r2 = LengthSquared(r);
+    const double kernel =
+      std::max(0.0, Dot(shapeA.Normal, r)) * std::max(0.0, -Dot(shapeB.Normal, r)) / (r2 * r2);
+    if (kernel > 0.0)
+    {
+      weight += kernel;
+      visible += this->Occluders.Occluded(
+                   { x, this->Tree.Triangle(a) }, { y, this->Tree.Triangle(b) })
+        ? 0.0
+        : kernel;
+    }
+  }
+  return weight > 0.0 ? visible / weight : 0.5;
 }
 
 double ViewFactorPairs::Value(const ExchangeStratum& s) const
@@ -150,7 +208,7 @@ double ViewFactorPairs::Unnoticed(const ExchangeStratum& s, double goal) const
   }
   // What pairs of the same kind hide from the rays they got: of V uniform in (0, 1) k rays agree by
   // chance in 2/(k+1) and are then wrong by 4/((k+1)(k+2)(k+3)) in the mean square.
-  const double k = std::max(4.0, std::min(Sets * MostAgreed, s.Exact / goal));
+  const double k = std::max(4.0, std::min(Sets * MostAgreed, s.Exact / (LookedShare * goal)));
   return s.Exact * s.Exact * 4.0 / ((k + 1.0) * (k + 2.0) * (k + 3.0)) / (1.0 - 2.0 / (k + 1.0));
 }
 
@@ -197,11 +255,11 @@ bool ViewFactorPairs::Plan(
     fourth += v * v / (Sets - 1.0);
     unnoticed += count <= FewStrata ? scale * scale * this->Unnoticed(s, goal) : 0.0;
     looked = looked && !(count <= FewStrata && s.Exact > 0.0 && s.Agreed() && s.Done < MostAgreed &&
-      scale * s.Exact > goal * (static_cast<double>(Sets) * s.Done + 2.0));
+      scale * s.Exact > LookedShare * goal * (static_cast<double>(Sets) * s.Done + 2.0));
   }
   const double t = variance > 0.0 ? Student95(variance * variance / fourth) : 0.0;
   const double sampling = t * std::sqrt(variance);
-  row.Sampling = std::hypot(sampling, 2.0 * std::sqrt(unnoticed));
+  row.Sampling = std::hypot(sampling, std::sqrt(unnoticed));
 
   const double left = std::max(0.25 * goal, goal - row.Truncation);
   double points = 0.0;
@@ -226,7 +284,7 @@ bool ViewFactorPairs::Plan(
 void ViewFactorPairs::Allot(
   double goal, double scale, ExchangeStratum* strata, std::size_t count) const
 {
-  const double wanted = 0.8 * goal / (scale * Student95(2.0 * Sets));
+  const double wanted = goal / (scale * 2.0);
   double deviations = 0.0, points = 0.0;
   for (std::size_t k = 0; k < count; ++k)
   {
@@ -241,7 +299,7 @@ void ViewFactorPairs::Allot(
     double most = deviations > 0.0 ? total * this->Deviation(s) / deviations : 0.0;
     if (count <= FewStrata && s.Exact > 0.0 && s.Agreed())
     {
-      most = std::max(most, std::min(MostAgreed, scale * s.Exact / goal / Sets));
+      most = std::max(most, std::min(MostAgreed, scale * s.Exact / (LookedShare * goal) / Sets));
     }
     s.Wanted = 1;
     while (s.Wanted < 0.75 * most && s.Wanted < (1u << 20))

@@ -9,6 +9,7 @@
 #include "radiometry/visibility/Convexity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -25,7 +26,7 @@ constexpr std::uint32_t MostRays = 1u << 15;  // ... for its environment
 constexpr std::uint32_t MostHits = 1u << 22;  // ... for all that it sees (MonteCarlo)
 // Pairs of triangles up to which Auto takes every one; fewer where something stands between.
 constexpr double MostPairs = 1e7;
-constexpr double MostBlockedPairs = 1e6;
+constexpr double MostBlockedPairs = 1e5;
 
 /// One run, stage by stage.
 class Run
@@ -151,9 +152,10 @@ void Run::ChooseMethod()
     "MonteCarlo: rays from every patch" };
   Result.Method = names[static_cast<int>(method)] + why.str();
   // Fine where it costs little.
+  const double coarse = std::clamp(0.02 * Options.RelativeTolerance, 1e-9, 1e-3);
   PairTolerance = pairs <= 1e5
     ? 1e-9
-    : (pairs <= 1e7 ? 1e-6 : std::clamp(0.05 * Options.RelativeTolerance, 1e-9, 1e-3));
+    : (pairs <= 1e7 && !Hierarchical ? std::min(1e-6, coarse) : coarse);
 }
 
 void Run::ByPairs()
@@ -180,8 +182,9 @@ void Run::RowsFromHits()
     const auto from = static_cast<std::int32_t>(g);
     for (const auto& [to, hits] : Rays->HitsOf(from))
     {
-      const RayShare share = Rays->Share(from, { static_cast<double>(hits[0]),
-        static_cast<double>(hits[1]), static_cast<double>(hits[2]), static_cast<double>(hits[3]) });
+      std::array<double, ViewFactorRays::Sets> counts;
+      std::copy(hits.begin(), hits.end(), counts.begin());
+      const RayShare share = Rays->Share(from, counts);
       ends.push_back({ std::min(from, to), std::max(from, to), Areas[g] * share.Value,
         Areas[g] * share.Error, Rays->Rays(from) / Areas[g] });
     }
