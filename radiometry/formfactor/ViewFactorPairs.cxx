@@ -22,7 +22,7 @@ constexpr double SmallShare = 1.0 / 64.0;
 // A row of more strata than this is left to all threads together.
 constexpr std::size_t LocalStrata = 64;
 // Of what stands in a shaft, so many are looked at.
-constexpr std::size_t MostInside = 24;
+constexpr std::size_t MostInside = 256;
 
 /// The part of a flat node's outline above the plane of another.
 ConvexPolygon Above(const std::vector<Vec3>& outline, const PatchTree::Node& plane)
@@ -106,7 +106,7 @@ private:
     }
     if (!open && na.Flat && nb.Flat)
     {
-      const Proof proof = P.Prove(na, nb);
+      const Proof proof = P.Prove(a, b);
       if (proof == Proof::Hidden)
       {
         return;
@@ -136,10 +136,7 @@ private:
     {
       GroupExchange row{ part.I, part.J, part.Value, part.Truncation, 0.0 };
       const double known = row.Value;
-      for (std::size_t k = 0; k < count; ++k)
-      {
-        strata[k].Wanted = count <= 2 ? 8 : (count <= 8 ? 4 : 2);
-      }
+      P.Begin(row, scale, strata, count);
       do
       {
         for (std::size_t k = 0; k < count; ++k)
@@ -190,7 +187,7 @@ private:
     }
     if (!open && na.Flat && nb.Flat)
     {
-      const Proof proof = P.Prove(na, nb);
+      const Proof proof = P.Prove(a, b);
       if (proof == Proof::Hidden)
       {
         return;
@@ -230,7 +227,7 @@ private:
     ++this->Pairs;
     if (!open)
     {
-      const Proof proof = P.Prove(Tree[a], Tree[b]);
+      const Proof proof = P.Prove(a, b);
       if (proof == Proof::Hidden)
       {
         return;
@@ -288,11 +285,12 @@ bool ViewFactorPairs::Small(const PatchTree::Node& a, const PatchTree::Node& b) 
   return std::min(a.Area, b.Area) <= SmallShare * whole;
 }
 
-ViewFactorPairs::Proof ViewFactorPairs::Prove(
-  const PatchTree::Node& a, const PatchTree::Node& b) const
+ViewFactorPairs::Proof ViewFactorPairs::Prove(std::int32_t a, std::int32_t b) const
 {
-  const ConvexPolygon partA = Above(this->Tree.Outline(a), b);
-  const ConvexPolygon partB = Above(this->Tree.Outline(b), a);
+  const PatchTree::Node& na = this->Tree[a];
+  const PatchTree::Node& nb = this->Tree[b];
+  const ConvexPolygon partA = Above(this->Tree.Outline(na), nb);
+  const ConvexPolygon partB = Above(this->Tree.Outline(nb), na);
   if (partA.N < 3 || partB.N < 3)
   {
     return Proof::Unknown;
@@ -300,13 +298,21 @@ ViewFactorPairs::Proof ViewFactorPairs::Prove(
   const Shaft shaft(partA, partB, this->Between->Rounding());
   static thread_local std::vector<std::int32_t> inside;
   inside.clear();
-  if (!this->Between->InShaft(shaft, MostInside, inside))
-  {
-    return Proof::Unknown;
-  }
-  if (inside.empty())
+  if (this->Between->InShaft(shaft, 0, inside))
   {
     return Proof::Visible;
+  }
+  // A few rays tell whether to look for a proof that all is hidden.
+  ExchangeStratum probe;
+  probe.A = a;
+  probe.B = b;
+  probe.Exact = 0.0;
+  probe.Wanted = 2;
+  this->Sample(probe);
+  inside.clear();
+  if (!probe.AnyHidden || probe.AnyVisible || !this->Between->InShaft(shaft, MostInside, inside))
+  {
+    return Proof::Unknown;
   }
   return this->Between->HideAll(partA, partB, shaft, inside) ? Proof::Hidden : Proof::Unknown;
 }

@@ -90,7 +90,8 @@ private:
 
   bool Apart(const PatchTree::Node& a, const PatchTree::Node& b) const;
   bool Small(const PatchTree::Node& a, const PatchTree::Node& b) const;
-  Proof Prove(const PatchTree::Node& a, const PatchTree::Node& b) const;
+  /// Of two flat nodes.
+  Proof Prove(std::int32_t a, std::int32_t b) const;
   /// Pairs of a node of one group with a node of any; `own`: of the same group.
   void MakeItems(std::int32_t a, std::int32_t b, bool own, std::vector<Item>& items) const;
   void MakeOwnItems(std::int32_t a, std::vector<Item>& items) const;
@@ -102,6 +103,8 @@ private:
   double Variance(const ExchangeStratum& stratum) const;
   double Deviation(const ExchangeStratum& stratum) const;
   double Unnoticed(const ExchangeStratum& stratum, double goal) const;
+  /// Sets what a row's strata are to sample first.
+  void Begin(const GroupExchange& row, double scale, ExchangeStratum* strata, std::size_t count) const;
   /// Sets what a row has got, and what its strata are to sample in the next round; true when there
   /// is none.
   bool Plan(GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count) const;

@@ -15,7 +15,8 @@ constexpr double Pi = 3.14159265358979323846;
 constexpr int Sets = ExchangeStratum::Sets;
 constexpr double MostPoints = 1u << 20;  // of each sequence in a row's round
 constexpr double MostAgreed = 1024;      // ... of a stratum all of whose rays agree
-constexpr double LookedShare = 0.4;      // of the goal: what one ray that disagreed may add
+constexpr double LookedShare = 0.4;      // of the goal: what one ray that sees nothing may take
+constexpr double HiddenShare = 1.5;      // ... what one that sees something may add
 constexpr std::size_t FewStrata = 8;     // of a row whose strata must each be looked at well
 
 /// What 95 % of Student's t with so many degrees of freedom stay below (within 1 %).
@@ -24,6 +25,8 @@ double Student95(double freedom)
   const double x = 1.0 / std::max(1.0, freedom);
   return 1.96 + x * (2.37 + x * (2.82 + x * 5.55));
 }
+
+double Looked(const ExchangeStratum& s) { return s.AnyHidden ? HiddenShare : LookedShare; }
 
 } // namespace
 
@@ -234,6 +237,24 @@ double ViewFactorPairs::Deviation(const ExchangeStratum& s) const
   return std::max(seen, all * std::sqrt(p * (1.0 - p) / Sets));
 }
 
+void ViewFactorPairs::Begin(
+  const GroupExchange& row, double scale, ExchangeStratum* strata, std::size_t count) const
+{
+  double most = 0.0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    most += scale * std::max(0.0, strata[k].Exact);
+  }
+  // A share between nothing and all is known to 1/sqrt(rays).
+  const double ratio = most / std::max(this->Goal(row), 1e-300);
+  const double points = ratio * ratio / (Sets * static_cast<double>(count));
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const bool cluster = strata[k].Exact < 0.0;
+    strata[k].Wanted = cluster || points > 4.0 ? 8 : (points > 2.0 ? 4 : (points > 1.0 ? 2 : 1));
+  }
+}
+
 bool ViewFactorPairs::Plan(
   GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count) const
 {
@@ -255,10 +276,11 @@ bool ViewFactorPairs::Plan(
     fourth += v * v / (Sets - 1.0);
     unnoticed += count <= FewStrata ? scale * scale * this->Unnoticed(s, goal) : 0.0;
     looked = looked && !(count <= FewStrata && s.Exact > 0.0 && s.Agreed() && s.Done < MostAgreed &&
-      scale * s.Exact > LookedShare * goal * (static_cast<double>(Sets) * s.Done + 2.0));
+      scale * s.Exact > Looked(s) * goal * (static_cast<double>(Sets) * s.Done + 2.0));
   }
   const double t = variance > 0.0 ? Student95(variance * variance / fourth) : 0.0;
-  const double sampling = t * std::sqrt(variance);
+  // A round ends the row when its spread happens to be small: a tenth more.
+  const double sampling = 1.1 * t * std::sqrt(variance);
   row.Sampling = std::hypot(sampling, std::sqrt(unnoticed));
 
   const double left = std::max(0.25 * goal, goal - row.Truncation);
@@ -299,7 +321,7 @@ void ViewFactorPairs::Allot(
     double most = deviations > 0.0 ? total * this->Deviation(s) / deviations : 0.0;
     if (count <= FewStrata && s.Exact > 0.0 && s.Agreed())
     {
-      most = std::max(most, std::min(MostAgreed, scale * s.Exact / (LookedShare * goal) / Sets));
+      most = std::max(most, std::min(MostAgreed, scale * s.Exact / (Looked(s) * goal) / Sets));
     }
     s.Wanted = 1;
     while (s.Wanted < 0.75 * most && s.Wanted < (1u << 20))

@@ -22,7 +22,7 @@ namespace
 
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::uint32_t FirstRays = 256;      // of each patch
-constexpr std::uint32_t MostRays = 1u << 15;  // ... for its environment
+constexpr std::uint32_t MostRays = 1u << 13;  // ... for its environment
 constexpr std::uint32_t MostHits = 1u << 22;  // ... for all that it sees (MonteCarlo)
 // Pairs of triangles up to which Auto takes every one; fewer where something stands between.
 constexpr double MostPairs = 1e7;
