@@ -2,10 +2,12 @@
 #include "radiometry/formfactor/ViewFactorPairs.h"
 
 #include "radiometry/geometry/PolygonFormFactor.h"
+#include "radiometry/scene/GatherRecords.h"
 #include "radiometry/scene/InputError.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace radiometry
 {
@@ -120,7 +122,7 @@ private:
   void Begin(std::int32_t a, std::int32_t b)
   {
     this->Current = Part{ Tree[a].FirstGroup, Tree[b].FirstGroup, 0.0, 0.0, 0.0,
-      static_cast<std::uint32_t>(this->Strata.size()), 0 };
+      this->Strata.size(), 0, 0 };
   }
 
   /// Keeps what the item gave to its row; a row that lies all within the item is refined at once.
@@ -143,7 +145,7 @@ private:
         {
           P.Sample(strata[k]);
         }
-      } while (!P.Plan(row, known, strata, count));
+      } while (!P.Plan(row, known, strata, count, P.TimeIsUp()));
       for (std::size_t k = 0; k < count; ++k)
       {
         this->Rays += strata[k].Rays;
@@ -152,7 +154,7 @@ private:
       part.Sampling = row.Sampling;
       this->Strata.resize(part.First);
     }
-    part.Strata = static_cast<std::uint32_t>(this->Strata.size()) - part.First;
+    part.Strata = this->Strata.size() - part.First;
     if (part.Value > 0.0 || part.Strata > 0)
     {
       this->Parts.push_back(part);
@@ -364,6 +366,91 @@ void ViewFactorPairs::MakeOwnItems(std::int32_t a, std::vector<Item>& items) con
   this->MakeItems(node.Left, node.Right, true, items);
 }
 
+/// This rank's share of the items: every so-manieth, as their costs change slowly along the list.
+void ViewFactorPairs::RunItems(const std::vector<Item>& items, const StageProgress& stage,
+  std::vector<Part>& parts, std::vector<ExchangeStratum>& strata)
+{
+  const auto step =
+    static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Size() : 1);
+  const auto rank =
+    static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Rank() : 0);
+  const std::size_t own = (items.size() + step - 1 - rank) / step;
+  std::vector<std::vector<Part>> partsOf(own);
+  std::vector<std::vector<ExchangeStratum>> strataOf(own);
+  ParallelFor(
+    own, this->Options.Threads, stage,
+    [&](std::size_t k) {
+      Worker worker(*this);
+      worker.Run(items[k * step + rank]);
+      this->PairCount += worker.Pairs;
+      this->RayCount += worker.Rays;
+      this->Bytes += static_cast<std::int64_t>(
+        worker.Parts.size() * 2 * (sizeof(Part) + sizeof(Row)) +
+        worker.Strata.size() * 2 * sizeof(ExchangeStratum));
+      if (this->Options.MemoryLimit &&
+        this->Bytes > static_cast<std::int64_t>(this->Options.MemoryLimit))
+      {
+        constexpr double mebibyte = 1024.0 * 1024.0;
+        const double done = static_cast<double>(k + 1) / static_cast<double>(own);
+        const double least = static_cast<double>(this->Bytes) / done / mebibyte;
+        throw InputError("MemoryLimit", -1,
+          static_cast<double>(this->Options.MemoryLimit) / mebibyte,
+          "some " + std::to_string(static_cast<long long>(least + 1.0)) +
+            " MiB for the pairs of patches that see each other; or fewer patches");
+      }
+      partsOf[k] = std::move(worker.Parts);
+      strataOf[k] = std::move(worker.Strata);
+    },
+    1e-3);
+  for (std::size_t k = 0; k < own; ++k)
+  {
+    for (Part& part : partsOf[k])
+    {
+      part.First += strata.size();
+      part.Item = k * step + rank;
+      parts.push_back(part);
+    }
+    strata.insert(strata.end(), strataOf[k].begin(), strataOf[k].end());
+    partsOf[k] = {};
+    strataOf[k] = {};
+  }
+}
+
+/// One row for each two groups, of all ranks' parts in the order of the items.
+void ViewFactorPairs::MakeRows(std::vector<Part>& parts, std::vector<ExchangeStratum>& found,
+  std::vector<Row>& rows, std::vector<ExchangeStratum>& strata) const
+{
+  std::vector<std::size_t> partsOf, strataOf;
+  GatherRecords(this->Options.Ranks, parts, &partsOf);
+  GatherRecords(this->Options.Ranks, found, &strataOf);
+  for (std::size_t r = 0; r + 1 < partsOf.size(); ++r)
+  {
+    for (std::size_t k = partsOf[r]; k < partsOf[r + 1]; ++k)
+    {
+      parts[k].First += strataOf[r];
+    }
+  }
+  std::sort(parts.begin(), parts.end(), [](const Part& x, const Part& y) {
+    return std::tie(x.I, x.J, x.Item, x.First) < std::tie(y.I, y.J, y.Item, y.First);
+  });
+  strata.reserve(found.size());
+  for (const Part& part : parts)
+  {
+    if (rows.empty() || rows.back().Exchange.I != part.I || rows.back().Exchange.J != part.J)
+    {
+      rows.push_back({ { part.I, part.J, 0.0, 0.0, 0.0 }, strata.size(), 0, true });
+    }
+    Row& row = rows.back();
+    row.Exchange.Value += part.Value;
+    row.Exchange.Truncation += part.Truncation;
+    row.Exchange.Sampling += part.Sampling; // of a row of one part
+    row.Strata += part.Strata;
+    row.Met = row.Strata == 0;
+    const auto first = found.begin() + static_cast<std::ptrdiff_t>(part.First);
+    strata.insert(strata.end(), first, first + static_cast<std::ptrdiff_t>(part.Strata));
+  }
+}
+
 std::vector<GroupExchange> ViewFactorPairs::Compute(
   const StageProgress& stage, ConvergenceRecord& record)
 {
@@ -375,73 +462,25 @@ std::vector<GroupExchange> ViewFactorPairs::Compute(
     this->MakeOwnItems(root, items);
     this->MakeItems(root, 0, false, items);
   }
-  std::vector<std::vector<Part>> parts(items.size());
-  std::vector<std::vector<ExchangeStratum>> found(items.size());
-  StageProgress first = stage;
-  first.End = stage.Begin + 0.7 * (stage.End - stage.Begin);
-  ParallelFor(
-    items.size(), this->Options.Threads, first,
-    [&](std::size_t k) {
-      Worker worker(*this);
-      worker.Run(items[k]);
-      this->PairCount += worker.Pairs;
-      this->RayCount += worker.Rays;
-      this->Bytes += static_cast<std::int64_t>(
-        worker.Parts.size() * (sizeof(Part) + sizeof(Row)) +
-        worker.Strata.size() * 2 * sizeof(ExchangeStratum));
-      if (this->Options.MemoryLimit &&
-        this->Bytes > static_cast<std::int64_t>(this->Options.MemoryLimit))
-      {
-        const double done = static_cast<double>(k + 1) / static_cast<double>(items.size());
-        throw InputError("MemoryLimit", -1,
-          static_cast<double>(this->Options.MemoryLimit) / (1024.0 * 1024.0),
-          "some " +
-            std::to_string(static_cast<long long>(
-              static_cast<double>(this->Bytes) / done / (1024.0 * 1024.0) + 1.0)) +
-            " MiB for the pairs of patches that see each other; or fewer patches");
-      }
-      parts[k] = std::move(worker.Parts);
-      found[k] = std::move(worker.Strata);
-    },
-    1e-3);
-
-  // One row for each two groups, from the parts in the order of the items.
-  struct Piece
-  {
-    const Part* Of;
-    const ExchangeStratum* Strata;
-  };
-  std::vector<Piece> pieces;
-  for (std::size_t k = 0; k < items.size(); ++k)
-  {
-    for (const Part& part : parts[k])
-    {
-      pieces.push_back({ &part, found[k].data() + part.First });
-    }
-  }
-  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
-    return x.Of->I < y.Of->I || (x.Of->I == y.Of->I && x.Of->J < y.Of->J);
-  });
+  StageProgress first = stage, second = stage;
+  first.End = second.Begin = stage.Begin + 0.7 * (stage.End - stage.Begin);
   std::vector<Row> rows;
   std::vector<ExchangeStratum> strata;
-  for (const Piece& piece : pieces)
   {
-    const Part& part = *piece.Of;
-    if (rows.empty() || rows.back().Exchange.I != part.I || rows.back().Exchange.J != part.J)
-    {
-      rows.push_back({ { part.I, part.J, 0.0, 0.0, 0.0 }, strata.size(), 0, true });
-    }
-    Row& row = rows.back();
-    row.Exchange.Value += part.Value;
-    row.Exchange.Truncation += part.Truncation;
-    row.Exchange.Sampling += part.Sampling; // of a row of one part
-    row.Strata += part.Strata;
-    row.Met = row.Strata == 0;
-    strata.insert(strata.end(), piece.Strata, piece.Strata + part.Strata);
+    std::vector<Part> parts;
+    std::vector<ExchangeStratum> found;
+    this->RunItems(items, first, parts, found);
+    this->MakeRows(parts, found, rows, strata);
   }
-  StageProgress second = stage;
-  second.Begin = first.End;
   this->Refine(rows, strata, second, record);
+  if (this->Options.Ranks)
+  {
+    std::int64_t counts[] = { this->PairCount, this->RayCount, this->Late ? 1 : 0 };
+    this->Options.Ranks->Sum(counts, 3);
+    this->PairCount = counts[0];
+    this->RayCount = counts[1];
+    this->Late = counts[2] > 0;
+  }
 
   std::vector<GroupExchange> out;
   out.reserve(rows.size());

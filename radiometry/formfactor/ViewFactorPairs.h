@@ -46,7 +46,8 @@ struct ExchangeStratum
   bool Agreed() const { return !this->AnyVisible || !this->AnyHidden; }
 };
 
-/// The exchange between all groups of a tree by pairs of nodes.
+/// The exchange between all groups of a tree by pairs of nodes. Ranks (ViewFactorOptions::Ranks) share
+/// the pairs and the samples; all have all rows after.
 class ViewFactorPairs
 {
 public:
@@ -72,7 +73,8 @@ private:
   {
     std::int32_t I, J;
     double Value, Truncation, Sampling;
-    std::uint32_t First, Strata; // of its strata that are still to be refined
+    std::uint64_t First, Strata; // of its strata that are still to be refined
+    std::uint64_t Item;
   };
   struct Row
   {
@@ -107,8 +109,14 @@ private:
   void Begin(const GroupExchange& row, double scale, ExchangeStratum* strata, std::size_t count) const;
   /// Sets what a row has got, and what its strata are to sample in the next round; true when there
   /// is none.
-  bool Plan(GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count) const;
+  bool Plan(GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count,
+    bool late) const;
   void Allot(double goal, double scale, ExchangeStratum* strata, std::size_t count) const;
+  void RunItems(const std::vector<Item>& items, const StageProgress& stage,
+    std::vector<Part>& parts, std::vector<ExchangeStratum>& strata);
+  void MakeRows(std::vector<Part>& parts, std::vector<ExchangeStratum>& found,
+    std::vector<Row>& rows, std::vector<ExchangeStratum>& strata) const;
+  void SampleAll(std::vector<ExchangeStratum>& strata, const StageProgress& stage);
   void Refine(std::vector<Row>& rows, std::vector<ExchangeStratum>& strata,
     const StageProgress& stage, ConvergenceRecord& record);
   bool TimeIsUp() const;

@@ -2,6 +2,7 @@
 #include "radiometry/formfactor/ViewFactorRays.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/scene/GatherRecords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,13 +122,49 @@ void ViewFactorRays::Trace(const std::vector<std::uint32_t>& rays, const StagePr
     }
     this->Done[g] = std::max(this->Done[g], until);
   }
+  const RankShare share(this->Options.Ranks, tasks.size());
   std::vector<Outcome> outcomes(tasks.size());
   ParallelFor(
-    tasks.size(), this->Options.Threads, stage,
-    [&](std::size_t k) { this->Run(tasks[k], outcomes[k]); }, 1e-4);
+    share.End - share.Begin, this->Options.Threads, stage,
+    [&](std::size_t k) { this->Run(tasks[share.Begin + k], outcomes[share.Begin + k]); }, 1e-4);
+  this->ShareOutcomes(share, outcomes);
   for (std::size_t k = 0; k < tasks.size(); ++k)
   {
     this->Merge(tasks[k], outcomes[k]);
+  }
+}
+
+/// Every rank gets what the others' tasks met.
+void ViewFactorRays::ShareOutcomes(const RankShare& share, std::vector<Outcome>& outcomes) const
+{
+  if (!this->Options.Ranks)
+  {
+    return;
+  }
+  struct TaskHits
+  {
+    std::int32_t Task, Group, Count;
+  };
+  std::vector<std::array<std::int32_t, Fates>> tallies;
+  std::vector<TaskHits> met;
+  for (std::size_t k = share.Begin; k < share.End; ++k)
+  {
+    tallies.push_back(outcomes[k].Tally);
+    for (const auto& [group, count] : outcomes[k].Hits)
+    {
+      met.push_back({ static_cast<std::int32_t>(k), group, count });
+    }
+    outcomes[k].Hits.clear();
+  }
+  GatherRecords(this->Options.Ranks, tallies);
+  GatherRecords(this->Options.Ranks, met);
+  for (std::size_t k = 0; k < outcomes.size(); ++k)
+  {
+    outcomes[k].Tally = tallies[k];
+  }
+  for (const TaskHits& m : met)
+  {
+    outcomes[static_cast<std::size_t>(m.Task)].Hits.emplace_back(m.Group, m.Count);
   }
 }
 

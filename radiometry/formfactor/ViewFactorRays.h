@@ -75,6 +75,7 @@ private:
   };
   void Run(const Task& task, Outcome& outcome) const;
   void Merge(const Task& task, const Outcome& outcome);
+  void ShareOutcomes(const RankShare& share, std::vector<Outcome>& outcomes) const;
 
   const PatchTree& Tree;
   const OcclusionScene& Occluders;

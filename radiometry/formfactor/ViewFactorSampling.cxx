@@ -2,6 +2,7 @@
 #include "radiometry/formfactor/ViewFactorPairs.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/scene/GatherRecords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -256,7 +257,7 @@ void ViewFactorPairs::Begin(
 }
 
 bool ViewFactorPairs::Plan(
-  GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count) const
+  GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count, bool late) const
 {
   const double scale = row.I == row.J ? 2.0 : 1.0;
   double value = 0.0;
@@ -293,7 +294,7 @@ bool ViewFactorPairs::Plan(
   {
     return true;
   }
-  if (this->TimeIsUp())
+  if (late)
   {
     this->Late = true;
     return true;
@@ -331,6 +332,42 @@ void ViewFactorPairs::Allot(
   }
 }
 
+/// All that are to be sampled, each rank its share.
+void ViewFactorPairs::SampleAll(
+  std::vector<ExchangeStratum>& strata, const StageProgress& stage)
+{
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < strata.size(); ++k)
+  {
+    if (strata[k].Wanted > 0)
+    {
+      all.push_back(k);
+    }
+  }
+  const RankShare share(this->Options.Ranks, all.size());
+  ParallelFor(
+    share.End - share.Begin, this->Options.Threads, stage,
+    [&](std::size_t k) {
+      ExchangeStratum& stratum = strata[all[share.Begin + k]];
+      this->RayCount += static_cast<std::int64_t>(Sets) * stratum.Wanted;
+      this->Sample(stratum);
+    },
+    1e-5);
+  if (this->Options.Ranks)
+  {
+    std::vector<ExchangeStratum> own;
+    for (std::size_t k = share.Begin; k < share.End; ++k)
+    {
+      own.push_back(strata[all[k]]);
+    }
+    GatherRecords(this->Options.Ranks, own);
+    for (std::size_t k = 0; k < all.size(); ++k)
+    {
+      strata[all[k]] = own[k];
+    }
+  }
+}
+
 void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum>& strata,
   const StageProgress& stage, ConvergenceRecord& record)
 {
@@ -346,18 +383,12 @@ void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum
     StageProgress part = stage;
     part.Begin = stage.Begin + (stage.End - stage.Begin) * round / rounds;
     part.End = stage.Begin + (stage.End - stage.Begin) * (round + 1) / rounds;
-    std::vector<std::size_t> todo;
-    for (std::size_t k = 0; k < strata.size(); ++k)
+    this->SampleAll(strata, part);
+    double late = this->TimeIsUp() ? 1.0 : 0.0;
+    if (this->Options.Ranks)
     {
-      if (strata[k].Wanted > 0)
-      {
-        todo.push_back(k);
-        this->RayCount += static_cast<std::int64_t>(Sets) * strata[k].Wanted;
-      }
+      this->Options.Ranks->Largest(&late, 1);
     }
-    ParallelFor(
-      todo.size(), this->Options.Threads, part,
-      [&](std::size_t k) { this->Sample(strata[todo[k]]); }, 1e-5);
     bool all = true;
     double value = 0.0, error = 0.0;
     for (std::size_t r = 0; r < rows.size(); ++r)
@@ -365,7 +396,8 @@ void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum
       Row& row = rows[r];
       if (!row.Met)
       {
-        row.Met = this->Plan(row.Exchange, known[r], strata.data() + row.First, row.Strata);
+        row.Met = this->Plan(row.Exchange, known[r], strata.data() + row.First, row.Strata,
+          late > 0.0);
         all = all && row.Met;
       }
       value += row.Exchange.Value;

@@ -41,9 +41,16 @@ private:
   {
     return { this->Listener, begin, end, name };
   }
+  /// The same on all ranks.
   bool TimeIsUp() const
   {
-    return Options.TimeBudget > 0.0 && this->Result.Convergence.Elapsed() > Options.TimeBudget;
+    double late =
+      Options.TimeBudget > 0.0 && this->Result.Convergence.Elapsed() > Options.TimeBudget ? 1.0 : 0.0;
+    if (Options.Ranks)
+    {
+      Options.Ranks->Largest(&late, 1);
+    }
+    return late > 0.0;
   }
   void ChooseMethod();
   void ByPairs();
@@ -345,7 +352,6 @@ Run::View Run::Around(std::int32_t g) const
   view.Sky = Rays->Share(g, ViewFactorRays::Sky);
   view.Ground = Rays->Share(g, ViewFactorRays::Ground);
   view.Blocked = Rays->Share(g, ViewFactorRays::Blocked);
-  const double rays = Rays->Rays(g);
   // Sky and ground are what nothing hides of the open hemisphere's parts.
   const double unnoticed = MaySee[g] ? 1.0 : 0.0;
   const RayShare high = Rays->Share(g, ViewFactorRays::HitHigh);
@@ -374,7 +380,6 @@ Run::View Run::Around(std::int32_t g) const
     share->Value = std::min(share->Value, most);
     share->Error = std::min(share->Error, std::max(share->Value, most - share->Value));
   }
-  static_cast<void>(rays);
   return view;
 }
 

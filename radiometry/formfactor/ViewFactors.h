@@ -36,7 +36,7 @@ struct ViewFactorOptions
   Vec3 Up{ 0.0, 0.0, 1.0 };
   int Threads = 0;
   std::uint64_t Seed = 0;
-  const Communicator* Ranks = nullptr;
+  const Communicator* Ranks = nullptr; // that share the work; null: this process alone
 };
 
 /// A view factor of each patch, with its error.

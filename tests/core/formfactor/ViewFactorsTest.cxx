@@ -4,6 +4,7 @@
 #include "radiometry/formfactor/ViewFactorClosure.h"
 #include "radiometry/scene/InputError.h"
 #include "tests/core/TestScenes.h"
+#include "tests/core/ThreadRanks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -392,6 +393,36 @@ TEST(ViewFactors, ThreadsAndRepetitionGiveTheSameBytes)
         EXPECT_EQ(first[k].Error, result.Rows[k].Error);
       }
     }
+  }
+}
+
+TEST(ViewFactors, RanksGiveTheBytesOfOneProcess)
+{
+  Patched room;
+  room.Mesh.AddBox({ 0, 0, 0 }, { 4, 3, 2.5 }, 2, true);
+  room.EndEach();
+  room.Mesh.AddBox({ 1, 1, 0.5 }, { 1.7, 1.6, 1.2 }, 2, false);
+  room.End();
+  for (const ViewFactorMethod method : All)
+  {
+    ViewFactorOptions options = With(method, 0.05);
+    options.AbsoluteTolerance = 2e-3;
+    const ViewFactorResult one = room.Compute(options);
+    test::ThreadRanks(3).Run([&](const Communicator& ranks) {
+      ViewFactorOptions shared = options;
+      shared.Ranks = &ranks;
+      shared.Threads = 1;
+      const ViewFactorResult result = room.Compute(shared);
+      ASSERT_EQ(result.Rows.size(), one.Rows.size());
+      for (std::size_t k = 0; k < one.Rows.size(); ++k)
+      {
+        EXPECT_EQ(result.Rows[k].Value, one.Rows[k].Value);
+        EXPECT_EQ(result.Rows[k].Error, one.Rows[k].Error);
+      }
+      EXPECT_EQ(result.Sky.Value, one.Sky.Value);
+      EXPECT_EQ(result.Pairs, one.Pairs);
+      EXPECT_EQ(result.Rays, one.Rays);
+    });
   }
 }
 
