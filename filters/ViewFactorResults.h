@@ -22,8 +22,7 @@ struct SurfacePatches
 
   /// By the array `name` of each block; empty: every cell is a patch, named by its number.
   ///   Fails   InputError naming array, cell and value
-  SurfacePatches(const std::vector<SceneAdapter::Block>& blocks, std::size_t cells,
-    const std::string& name);
+  SurfacePatches(const std::vector<SceneAdapter::Block>& blocks, const std::string& name);
 };
 
 /// Writes view factors onto the filter's outputs.
