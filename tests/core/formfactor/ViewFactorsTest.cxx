@@ -299,8 +299,8 @@ TEST(ViewFactors, ErrorsCoverAndAreSharp)
   scene.End();
   scene.Mesh.AddBox({ 0.6, 0.7, 0.5 }, { 1.3, 1.2, 0.9 }, 1, false);
   scene.End(true);
-  ViewFactorOptions fine = With(ViewFactorMethod::Dense, 3e-4);
-  fine.AbsoluteTolerance = 1e-7;
+  ViewFactorOptions fine = With(ViewFactorMethod::Dense, 1e-3);
+  fine.AbsoluteTolerance = 1e-6;
   const ViewFactorResult exact = scene.Compute(fine);
   for (const ViewFactorMethod method : All)
   {
