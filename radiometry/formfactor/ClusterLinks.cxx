@@ -394,7 +394,7 @@ void ClusterRefiner::LinkElements(
   const double d2 = LengthSquared(i.Center - j.Center);
   const double rough = std::min(1.0, std::max(i.Area, j.Area) / (Pi * d2));
   const PairExchangeResult exchange =
-    PairExchange(i, j, std::clamp(0.1 * this->FormAllowance / rough, 1e-9, 1e-2));
+    PairExchange(i, j, std::clamp(0.5 * this->FormAllowance / rough, 1e-9, 3e-2));
   if (!(exchange.Value > 0.0))
   {
     return;
