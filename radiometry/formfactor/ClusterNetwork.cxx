@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 
 namespace radiometry
@@ -41,8 +42,7 @@ bool ClusterNetwork::Link(const ClusterRefiner& refiner, const ClusterRefiner& h
   const auto start = clock::now();
   std::vector<std::vector<ClusterLink>> parts(1);
   ClusterRefiner::Tally tally;
-  const std::size_t wanted = std::clamp<std::size_t>(this->Tree.Order().size() / 8, 64, 32768);
-  const std::vector<NodePair> tasks = refiner.Tasks(wanted, parts[0], tally);
+  const std::vector<NodePair> tasks = refiner.Tasks(this->TaskCount(), parts[0], tally);
   const auto size = static_cast<std::size_t>(this->Ranks ? this->Ranks->Size() : 1);
   const auto rank = static_cast<std::size_t>(this->Ranks ? this->Ranks->Rank() : 0);
   if (rank > 0)
@@ -104,6 +104,33 @@ bool ClusterNetwork::Link(const ClusterRefiner& refiner, const ClusterRefiner& h
   this->PairCount = counts[1];
   this->RayCount = counts[2];
   return true;
+}
+
+std::size_t ClusterNetwork::Count(const ClusterRefiner& refiner, const StageProgress& stage) const
+{
+  std::vector<ClusterLink> first;
+  ClusterRefiner::Tally tally;
+  const std::vector<NodePair> tasks = refiner.Tasks(this->TaskCount(), first, tally);
+  const auto size = static_cast<std::size_t>(this->Ranks ? this->Ranks->Size() : 1);
+  std::vector<std::size_t> counts(tasks.size(), 0);
+  Collectively(this->Ranks, [&] {
+    ParallelFor(
+      tasks.size(), this->Threads, stage,
+      [&](std::size_t k) {
+        std::vector<ClusterLink> links;
+        ClusterRefiner::Tally unused;
+        refiner.Refine(tasks[k], std::numeric_limits<std::size_t>::max(), links, unused);
+        counts[k] = links.size();
+      },
+      1e-3);
+  });
+  std::vector<std::size_t> ofRank(size, 0);
+  ofRank[0] = first.size();
+  for (std::size_t k = 0; k < tasks.size(); ++k)
+  {
+    ofRank[k % size] += counts[k];
+  }
+  return *std::max_element(ofRank.begin(), ofRank.end());
 }
 
 /// Sorts links by their nodes, each link twice.

@@ -7,6 +7,7 @@
 #include "radiometry/scene/Archive.h"
 #include "radiometry/scene/Parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -45,6 +46,9 @@ public:
   /// what remains is made by `hasty`. Collective.
   bool Link(const ClusterRefiner& refiner, const ClusterRefiner& hasty, double seconds,
     std::size_t most, const StageProgress& stage);
+
+  /// The most links of a rank that a refiner would make; keeps none. Collective.
+  std::size_t Count(const ClusterRefiner& refiner, const StageProgress& stage) const;
 
   /// out = d F d x. Collective.
   void Multiply(
@@ -141,6 +145,10 @@ private:
   template <int Fixed>
   void Product(const std::vector<double>& scale, const double* x, double* out, int bands) const;
   void NumberCurved();
+  std::size_t TaskCount() const
+  {
+    return std::clamp<std::size_t>(this->Tree.Order().size() / 8, 64, 32768);
+  }
   void Keep(std::vector<std::vector<ClusterLink>>& parts);
   void Total(double* values, std::size_t count) const
   {

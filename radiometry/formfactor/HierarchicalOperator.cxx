@@ -72,12 +72,17 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
   const StageProgress& stage)
 {
   const auto start = std::chrono::steady_clock::now();
-  const double left = limit - static_cast<double>(this->N * ClusterNetwork::BytesOfElement);
-  const double room = left / static_cast<double>(ClusterNetwork::BytesOfLink);
+  const auto base = static_cast<double>(this->N * ClusterNetwork::BytesOfElement);
+  const double room = std::max(0.0, (limit - base) / ClusterNetwork::BytesOfLink);
   const std::size_t most =
     room < 1e15 ? static_cast<std::size_t>(room) : std::numeric_limits<std::size_t>::max();
   double seconds = 0.0;
-  for (this->Loosened = 1.0; this->Loosened * options.RelativeTolerance < 8.0; this->Loosened *= 2.0)
+  const auto refiner = [&](double loosened) {
+    return ClusterRefiner(
+      this->Network.GetTree(), elements, occluders, options, occlusion, loosened, covered);
+  };
+  const double coarsest = 64.0 / options.RelativeTolerance;
+  for (this->Loosened = 1.0; room > 0.0; this->Loosened = std::min(coarsest, 3.0 * this->Loosened))
   {
     if (options.SecondsLeft > 0.0)
     {
@@ -85,18 +90,20 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
       const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
       seconds = std::max(1e-6, 0.7 * options.SecondsLeft - gone.count());
     }
-    const ClusterRefiner refiner(this->Network.GetTree(), elements, occluders, options, occlusion,
-      this->Loosened * open, covered);
-    const ClusterRefiner hasty(this->Network.GetTree(), elements, occluders, options, occlusion,
-      std::max(4.0 * this->Loosened, 0.3 / options.RelativeTolerance), covered);
-    if (this->Network.Link(refiner, hasty, seconds, most, stage))
+    const double hasty = std::max(4.0 * this->Loosened, 0.3 / options.RelativeTolerance);
+    if (this->Network.Link(refiner(this->Loosened * open), refiner(hasty), seconds, most, stage))
     {
       return;
     }
+    if (this->Loosened >= coarsest)
+    {
+      break;
+    }
   }
+  const auto links = static_cast<double>(this->Network.Count(refiner(coarsest * open), stage));
   throw InputError("MemoryLimit", -1, limit / MiB,
-    "at least " + Mebibytes(2.0 * limit) + " for the coarsest links of " +
-      std::to_string(this->N) + " elements");
+    "at least " + Mebibytes(base + (links + 2.0) * ClusterNetwork::BytesOfLink) +
+      " for the coarsest links of " + std::to_string(this->N) + " elements");
 }
 
 /// One step of Newton's method on d_i (S d)_i = A_i over the fixed rows: relative changes of d by
@@ -283,14 +290,6 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     options.Ranks->Largest(&limit, 1);
   }
   limit = -limit;
-  const auto least =
-    static_cast<double>(LeastBytes(m.N, options.Ranks ? options.Ranks->Size() : 1));
-  if (least > limit)
-  {
-    throw InputError("MemoryLimit", -1, limit / MiB,
-      "at least " + Mebibytes(least) + " for links between clusters of " + std::to_string(m.N) +
-        " elements");
-  }
   m.Scale.assign(m.N, 1.0);
   m.RowSums.assign(m.N, 0.0);
   m.Closed.assign(m.N, 0);

@@ -34,7 +34,7 @@ public:
     const ElementSet& elements, const ExchangeOptions& options, const StageProgress& stage = {});
   ~HierarchicalOperator() override;
 
-  /// Bytes that each of some ranks needs at least for n elements.
+  /// Bytes that each of some ranks needs for n elements in most scenes; in clutter more.
   static std::size_t LeastBytes(std::size_t n, int ranks = 1);
 
   /// Everything but what belongs to the process. Over ranks each saves its own share.

@@ -165,7 +165,13 @@ TEST(HierarchicalOperator, MemoryLimitSaysWhatWouldDo)
   catch (const InputError& error)
   {
     EXPECT_EQ(error.Array, "MemoryLimit");
-    EXPECT_NE(error.Expected.find("at least"), std::string::npos);
+    const double least = std::stod(error.Expected.substr(error.Expected.find("least") + 6));
+    EXPECT_LT(least, 8.0);
+    options.MemoryLimit = static_cast<std::size_t>(least * 1024 * 1024);
+    const Built enough(mesh, options);
+    EXPECT_LE(enough.F.MemoryBytes(), options.MemoryLimit);
+    EXPECT_LT(enough.Defect(), 1e-12);
+    EXPECT_NE(enough.F.Description().find("coarser"), std::string::npos);
   }
 }
 
