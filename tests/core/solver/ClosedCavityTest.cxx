@@ -132,7 +132,7 @@ TEST(ClosedCavity, WhiteWithAPinhole)
   const std::size_t n = cavity.Elements.Size();
   std::vector<double> source(n, 0.0);
   source[3] = 10.0;
-  for (const std::size_t k : { 0u, 2u })
+  for (std::size_t k = 0; k < cavity.Operators.size(); ++k)
   {
     const auto& op = cavity.Operators[k];
     const SolveResult r = SolveRadiosity(*op, std::vector<double>(n, 1.0), source, 1, { 1e-8 });
@@ -142,9 +142,10 @@ TEST(ClosedCavity, WhiteWithAPinhole)
     {
       out += op->Areas()[i] * r.Radiosity[i] * (1.0 - op->RowSum(i));
     }
-    // Rays: some 250 of 49 000 meet the hole.
-    const double tolerance = k == 0 ? 0.03 : 0.25;
-    EXPECT_NEAR(out / (10.0 * op->Areas()[3]), 1.0, k == 0 ? 1e-7 : tolerance);
+    // All is lost by the hole, half a per cent of what a wall sees: what the operators know of that
+    // is multiplied by 200. Rays: some 250 of 49 000 meet it; links keep to 2 % of a row.
+    const double tolerance = k == 0 ? 0.03 : k == 1 ? 0.35 : 0.25;
+    EXPECT_NEAR(out / (10.0 * op->Areas()[3]), 1.0, k == 2 ? tolerance : 1e-7);
     EXPECT_NEAR(Mean(op->Areas(), r.Irradiance) * 0.5 / (10.0 * op->Areas()[3]), 1.0, tolerance)
       << op->Description();
     EXPECT_LE(r.Iterations, 20) << op->Description();
