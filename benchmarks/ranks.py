@@ -17,11 +17,12 @@ import sys
 import tempfile
 import time
 
-RUNS = [  # filter, method, cells wanted
-    ("Irradiance", 0, 30000),
-    ("Radiosity", 1, 2000),
-    ("Radiosity", 2, 20000),
-    ("Radiosity", 3, 20000),
+RUNS = [  # filter, method, cells wanted, with an area light
+    ("Irradiance", 0, 30000, True),
+    ("Irradiance", 0, 300000, False),
+    ("Radiosity", 1, 2000, True),
+    ("Radiosity", 2, 5000, True),
+    ("Radiosity", 3, 10000, True),
 ]
 METHODS = ["", "Dense", "Hierarchical", "MonteCarlo"]
 TOLERANCE = 0.05
@@ -98,7 +99,8 @@ def work(options):
     lamp.SetIntensity(60.0)
     f = getattr(vr, f"vtk{options.filter}Filter")()
     f.SetInputData(data)
-    f.AddLightsConnection(panel.GetOutputPort())
+    if options.panel:
+        f.AddLightsConnection(panel.GetOutputPort())
     f.AddLightsConnection(lamp.GetOutputPort())
     f.SetRelativeTolerance(TOLERANCE)
     f.SetDiffuseReflectance(0.6)
@@ -124,16 +126,16 @@ def work(options):
                    "method": field.GetValue(0) if field else ""}, file)
 
 
-def measure(name, method, cells, ranks, folder, threads):
+def measure(name, method, cells, panel, ranks, folder, threads):
     import numpy as np
-    out = os.path.join(folder, f"{name}-{method}-{ranks}")
+    out = os.path.join(folder, f"{name}-{method}-{cells}-{ranks}")
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1",
                        OMPI_MCA_rmaps_base_oversubscribe="1",
                        OMPI_MCA_hwloc_base_binding_policy="none")
     subprocess.run(["mpiexec", "-np", str(ranks), "pvbatch", "--sym", os.path.abspath(__file__),
                     "--worker", "--filter", name, "--method", str(method), "--cells", str(cells),
-                    "--threads", str(threads), "--out", out],
+                    "--panel", str(int(panel)), "--threads", str(threads), "--out", out],
                    env=environment, check=True, stdout=subprocess.DEVNULL)
     parts = []
     for r in range(ranks):
@@ -151,15 +153,15 @@ def main(options):
     import numpy as np
     results = []
     with tempfile.TemporaryDirectory() as folder:
-        for name, method, cells in RUNS:
+        for name, method, cells, panel in RUNS:
             if options.only and options.only not in (name, METHODS[method]):
                 continue
             one = None
             for ranks in (1, 2, 4):
-                row, values = measure(name, method, int(cells * options.scale), ranks, folder,
-                                      options.threads)
+                row, values = measure(name, method, int(cells * options.scale), panel, ranks,
+                                      folder, options.threads)
                 one = values if one is None else one
-                row.update(filter=name, asked=METHODS[method], bytes_equal=bool(
+                row.update(filter=name, asked=METHODS[method], area_light=panel, bytes_equal=bool(
                     values.tobytes() == one.tobytes()),
                     greatest_difference=float(np.abs(values - one).max() / np.abs(one).max()))
                 print(json.dumps(row), flush=True)
@@ -177,6 +179,7 @@ parser.add_argument("--worker", action="store_true")
 parser.add_argument("--filter", default="Irradiance")
 parser.add_argument("--method", type=int, default=0)
 parser.add_argument("--cells", type=int, default=1000)
+parser.add_argument("--panel", type=int, default=1)
 parser.add_argument("--threads", type=int, default=1)
 parser.add_argument("--scale", type=float, default=1.0, help="times the numbers of cells")
 parser.add_argument("--only", help="a filter or a method")
