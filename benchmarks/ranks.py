@@ -21,8 +21,8 @@ RUNS = [  # filter, method, cells wanted, with an area light
     ("Irradiance", 0, 30000, True),
     ("Irradiance", 0, 300000, False),
     ("Radiosity", 1, 2000, True),
-    ("Radiosity", 2, 5000, True),
-    ("Radiosity", 3, 10000, True),
+    ("Radiosity", 2, 3000, True),
+    ("Radiosity", 3, 6000, True),
 ]
 METHODS = ["", "Dense", "Hierarchical", "MonteCarlo"]
 TOLERANCE = 0.05

@@ -126,6 +126,18 @@ def check_emitters_and_no_lights():
     agree(result(radiosity(part, Method=DENSE, Refinement=OFF)), result(whole)[cells])
 
 
+def check_mirrors_and_panes():
+    """What rays follow over surfaces; the plan decides for MonteCarlo."""
+    scene = cavity(3)
+    count = len(scene.polygons)
+    scene.arrays["SpecularReflectance"] = [0.15 if c % 3 == 0 else 0.0 for c in range(count)]
+    scene.arrays["Transmittance"] = [0.1 if c < 12 else 0.0 for c in range(count)]
+    part, cells = scene.part([(7 * c) % size() for c in range(count)], rank())
+    properties = dict(Method=MONTE_CARLO, Refinement=OFF)
+    whole = radiosity(scene.whole(), lamp(), alone=True, **properties)
+    agree(result(radiosity(part, lamp(), **properties)), result(whole)[cells], 0.0)
+
+
 def check_errors_end_all():
     scene = Scene().add_box((0, 0, 0), (2, 2, 2), 3)
     scene.polygons = [list(reversed(cell)) for cell in scene.polygons]
