@@ -145,6 +145,13 @@ void TileExchange::Store(
   }
 }
 
+/// Of pairs that exchange next to nothing (in nearly one plane, say) no digits are sought.
+PairExchangeResult TileExchange::Unblocked(const ExchangePatch& a, const ExchangePatch& b) const
+{
+  return PairExchange(
+    a, b, this->Tolerance, 1e-4 * this->Tolerance * std::min(a.Area, b.Area));
+}
+
 /// Nothing stands between any of them.
 void TileExchange::Open(Work& work, const Node& a, const Node& b) const
 {
@@ -159,7 +166,7 @@ void TileExchange::Open(Work& work, const Node& a, const Node& b) const
         continue; // one plane
       }
       const PairExchangeResult pair =
-        PairExchange(this->Rows.Shape(i), this->Columns.Shape(j), this->Tolerance);
+        this->Unblocked(this->Rows.Shape(i), this->Columns.Shape(j));
       if (pair.Value > 0.0)
       {
         ++work.Result.Pairs;
@@ -194,7 +201,7 @@ void TileExchange::Single(Work& work, std::int32_t r, std::int32_t c,
     return;
   }
   const PairExchangeResult pair =
-    PairExchange(this->Rows.Shape(i), this->Columns.Shape(j), this->Tolerance);
+    this->Unblocked(this->Rows.Shape(i), this->Columns.Shape(j));
   if (!(pair.Value > 0.0))
   {
     return;

@@ -67,6 +67,7 @@ private:
   using Node = ElementBlocks::Node;
   void Divide(Work& work, std::size_t a, std::size_t b, int depth) const;
   void Same(Work& work, std::size_t a) const;
+  PairExchangeResult Unblocked(const ExchangePatch& a, const ExchangePatch& b) const;
   void Open(Work& work, const Node& a, const Node& b) const;
   void Mixed(Work& work, const Node& a, const Node& b,
     const PatchBlockers::Candidates& between) const;

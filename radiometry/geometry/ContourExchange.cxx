@@ -125,8 +125,8 @@ void AddStretches(
 
 } // namespace
 
-double ContourExchange(
-  const SmallPolygon& outer, const SmallPolygon& inner, double relativeTolerance, double& error)
+double ContourExchange(const SmallPolygon& outer, const SmallPolygon& inner,
+  double relativeTolerance, double absolute, double& error)
 {
   // In units of the outer polygon's size: contour integrals of a constant vanish, their rounding
   // does not.
@@ -136,6 +136,7 @@ double ContourExchange(
   {
     unit = std::max(unit, Length(outer.P[k] - origin));
   }
+  const double scale = unit * unit / (2.0 * Pi);
   const auto scaled = [&](const Vec3& p) { return (p - origin) / unit; };
 
   static thread_local std::vector<Stretch> stretches;
@@ -211,12 +212,11 @@ double ContourExchange(
     singular = level == 0 ? added : next;
     value = smooth + singular;
     error = smoothChange + singularChange + 8.0 * Epsilon * magnitude;
-    if (error <= relativeTolerance * std::abs(value))
+    if (error <= std::max(relativeTolerance * std::abs(value), absolute / scale))
     {
       break;
     }
   }
-  const double scale = unit * unit / (2.0 * Pi);
   error *= scale;
   return value * scale;
 }

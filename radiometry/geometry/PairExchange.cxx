@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace radiometry
 {
@@ -147,8 +148,9 @@ void Bound(const SmallPolygon& polygon, Vec3& center, double& radius)
   radius = std::sqrt(radius);
 }
 
+/// Without division.
 PairExchangeResult Exchange(const SmallPolygon& a, const Vec3& na, const SmallPolygon& b,
-  const Vec3& nb, double tolerance, int depth)
+  const Vec3& nb, double tolerance, double absolute)
 {
   PairExchangeResult result;
   Vec3 ca, cb;
@@ -196,47 +198,90 @@ PairExchangeResult Exchange(const SmallPolygon& a, const Vec3& na, const SmallPo
     return result;
   }
 
-  double error = 0.0;
-  const double value = ContourExchange(small, large, tolerance, error);
   result.Method = ExchangeMethod::Contour;
-  result.Value = std::max(0.0, value);
-  result.Error = error;
-  if (error <= tolerance * value || depth >= 6)
+  result.Value =
+    std::max(0.0, ContourExchange(small, large, tolerance, absolute, result.Error));
+  return result;
+}
+
+/// Two polygons whose exchange is a part of that of two patches.
+struct Piece
+{
+  SmallPolygon A, B;
+  PairExchangeResult Result;
+};
+
+/// Divides the larger polygon of a piece about the middle of its longest edge.
+void Divide(const Piece& piece, std::vector<Piece>& parts)
+{
+  Vec3 center;
+  double ra = 0.0, rb = 0.0;
+  Bound(piece.A, center, ra);
+  Bound(piece.B, center, rb);
+  const bool divideA = ra > rb;
+  const SmallPolygon& large = divideA ? piece.A : piece.B;
+  int longest = 0;
+  double length = -1.0;
+  for (int k = 0; k < large.N; ++k)
   {
-    return result;
-  }
-  // Too many digits were lost (a nearly flat wedge, a far pair at a fine tolerance): divide the
-  // larger; what is far from the other part then goes to the rules, which lose none.
-  PairExchangeResult divided;
-  divided.Method = ExchangeMethod::Divided;
-  const int longest = [&] {
-    int best = 0;
-    double length = -1.0;
-    for (int k = 0; k < large.N; ++k)
+    const double l = LengthSquared(large.P[(k + 1) % large.N] - large.P[k]);
+    if (l > length)
     {
-      const double l = LengthSquared(large.P[(k + 1) % large.N] - large.P[k]);
-      if (l > length)
-      {
-        length = l;
-        best = k;
-      }
+      length = l;
+      longest = k;
     }
-    return best;
-  }();
+  }
   const Vec3 middle = 0.5 * (large.P[longest] + large.P[(longest + 1) % large.N]);
-  for (int k = 1; k + 1 < large.N + 1; ++k)
+  for (int k = 1; k < large.N; ++k)
   {
-    // Fan about the middle of the longest edge.
     SmallPolygon part;
     part.N = 3;
     part.P[0] = middle;
     part.P[1] = large.P[(longest + k) % large.N];
     part.P[2] = large.P[(longest + k + 1) % large.N];
-    const PairExchangeResult r = Exchange(small, ns, part, nl, tolerance, depth + 1);
-    divided.Value += r.Value;
-    divided.Error += r.Error;
+    parts.push_back({ divideA ? part : piece.A, divideA ? piece.B : part, {} });
   }
-  return divided.Error < result.Error ? divided : result;
+}
+
+/// Too many digits were lost (a nearly flat wedge, a sliver, a far pair at a fine tolerance): what
+/// has the greatest error is divided, while that helps; what is then far from the other part goes to
+/// the rules, which lose none.
+PairExchangeResult Refined(const Piece& whole, const Vec3& na, const Vec3& nb, double tolerance,
+  double absolute)
+{
+  constexpr int mostPieces = 48;
+  std::vector<Piece> pieces{ whole }, parts;
+  PairExchangeResult total = whole.Result;
+  int evaluated = 0;
+  while (evaluated < mostPieces &&
+    total.Error > std::max(tolerance * total.Value, absolute))
+  {
+    const auto worst = std::max_element(pieces.begin(), pieces.end(),
+      [](const Piece& l, const Piece& r) { return l.Result.Error < r.Result.Error; });
+    parts.clear();
+    Divide(*worst, parts);
+    double error = 0.0;
+    for (Piece& part : parts)
+    {
+      part.Result = Exchange(part.A, na, part.B, nb, tolerance, 0.1 * absolute);
+      error += part.Result.Error;
+      ++evaluated;
+    }
+    if (error >= 0.9 * worst->Result.Error)
+    {
+      break;
+    }
+    *worst = parts[0];
+    pieces.insert(pieces.end(), parts.begin() + 1, parts.end());
+    total = {};
+    for (const Piece& piece : pieces)
+    {
+      total.Value += piece.Result.Value;
+      total.Error += piece.Result.Error;
+    }
+    total.Method = ExchangeMethod::Divided;
+  }
+  return total;
 }
 
 } // namespace
@@ -255,7 +300,7 @@ ExchangePatch::ExchangePatch(const Triangle3& corners)
 }
 
 PairExchangeResult PairExchange(
-  const ExchangePatch& i, const ExchangePatch& j, double relativeTolerance)
+  const ExchangePatch& i, const ExchangePatch& j, double relativeTolerance, double absolute)
 {
   // Wholly behind: the usual case in a scene, decided from two heights.
   const Vec3 ij = j.Center - i.Center;
@@ -275,7 +320,48 @@ PairExchangeResult PairExchange(
     return {};
   }
   const double tolerance = std::clamp(relativeTolerance, 1e-14, 0.1);
-  return Exchange(a, i.Normal, b, j.Normal, tolerance, 0);
+  const PairExchangeResult result = Exchange(a, i.Normal, b, j.Normal, tolerance, absolute);
+  return result.Method != ExchangeMethod::Contour ||
+      result.Error <= std::max(tolerance * result.Value, absolute)
+    ? result
+    : Refined({ a, b, result }, i.Normal, j.Normal, tolerance, absolute);
+}
+
+PairExchangeResult PairExchange(
+  const std::vector<Triangle3>& i, const std::vector<Triangle3>& j, double relativeTolerance)
+{
+  std::vector<ExchangePatch> from, to;
+  for (const Triangle3& t : i)
+  {
+    from.emplace_back(t);
+  }
+  for (const Triangle3& t : j)
+  {
+    to.emplace_back(t);
+  }
+  // What is small beside the sum need not have its digits: a first, coarse sum tells.
+  PairExchangeResult sum;
+  double coarse = 0.0;
+  for (const ExchangePatch& p : from)
+  {
+    for (const ExchangePatch& q : to)
+    {
+      coarse += PairExchange(p, q, 0.1).Value;
+    }
+  }
+  const double absolute =
+    0.5 * relativeTolerance * coarse / std::max<double>(1.0, from.size() * to.size());
+  for (const ExchangePatch& p : from)
+  {
+    for (const ExchangePatch& q : to)
+    {
+      const PairExchangeResult pair = PairExchange(p, q, 0.5 * relativeTolerance, absolute);
+      sum.Value += pair.Value;
+      sum.Error += pair.Error;
+      sum.Method = std::max(sum.Method, pair.Method);
+    }
+  }
+  return sum;
 }
 
 } // namespace radiometry
