@@ -16,7 +16,7 @@ constexpr double Pi = 3.14159265358979323846;
 // Halving both blocks down to single elements takes twice six steps.
 constexpr int Depths = 14;
 // So few pairs are not halved further.
-constexpr std::size_t FewPairs = 2;
+constexpr std::size_t FewPairs = 4;
 
 } // namespace
 

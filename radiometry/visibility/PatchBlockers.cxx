@@ -76,16 +76,6 @@ bool BehindAll(const Triangle3& t, std::int32_t number, const PatchGroup& g)
   return true;
 }
 
-/// Sets of candidates joined by inner edges.
-std::int32_t Root(std::vector<std::int32_t>& parent, std::int32_t k)
-{
-  while (parent[k] != k)
-  {
-    k = parent[k] = parent[parent[k]];
-  }
-  return k;
-}
-
 } // namespace
 
 PatchGroup::PatchGroup(const PlacedPatch* patches, std::int32_t count)
@@ -122,6 +112,22 @@ PatchBlockers::PatchBlockers(const Scene& scene)
   this->Center = bounds.Center();
   this->Scale = std::exp2(-std::ceil(std::log2(std::max({ size.x, size.y, size.z }))));
 
+  // Of triangles with the same corners one hides all that the others do.
+  std::vector<std::array<std::int32_t, 4>> corners(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    auto v = scene.Triangles[t];
+    std::sort(v.begin(), v.end());
+    corners[t] = { v[0], v[1], v[2], static_cast<std::int32_t>(t) };
+  }
+  std::sort(corners.begin(), corners.end());
+  this->Repeated.assign(count, 0);
+  for (std::size_t k = 1; k < count; ++k)
+  {
+    this->Repeated[corners[k][3]] =
+      std::equal(corners[k].begin(), corners[k].begin() + 3, corners[k - 1].begin()) ? 1 : 0;
+  }
+
   struct Side
   {
     std::int32_t A, B, Triangle, Corner;
@@ -140,7 +146,10 @@ PatchBlockers::PatchBlockers(const Scene& scene)
       boxes[t].Add(this->Triangles[t][k]);
       const std::int32_t a = scene.Triangles[t][k];
       const std::int32_t b = scene.Triangles[t][(k + 1) % 3];
-      sides.push_back({ std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), k, a > b });
+      if (!this->Repeated[t])
+      {
+        sides.push_back({ std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), k, a > b });
+      }
     }
     this->Normals[t] = Normalized(AreaNormal2(this->Triangles[t]));
   }
@@ -156,29 +165,13 @@ PatchBlockers::PatchBlockers(const Scene& scene)
     {
       ++end;
     }
-    for (std::size_t s = begin; s < end; ++s)
+    if (end - begin == 2)
     {
-      const auto code = [&](std::size_t o) {
-        return 2 * sides[o].Triangle + (sides[o].Back == sides[s].Back ? 1 : 0);
-      };
-      std::int32_t& neighbour =
-        this->Neighbour[static_cast<std::size_t>(sides[s].Triangle)][sides[s].Corner];
-      if (end - begin == 2)
-      {
-        neighbour = code(begin + end - 1 - s);
-      }
-      else if (end - begin > 2)
-      {
-        neighbour = -2 - static_cast<std::int32_t>(this->Others.size());
-        for (std::size_t o = begin; o < end; ++o)
-        {
-          if (o != s)
-          {
-            this->Others.push_back(code(o));
-          }
-        }
-        this->Others.push_back(NoNeighbour);
-      }
+      const Side& s = sides[begin];
+      const Side& o = sides[begin + 1];
+      const int turned = s.Back == o.Back ? 1 : 0;
+      this->Neighbour[static_cast<std::size_t>(s.Triangle)][s.Corner] = 2 * o.Triangle + turned;
+      this->Neighbour[static_cast<std::size_t>(o.Triangle)][o.Corner] = 2 * s.Triangle + turned;
     }
   }
 }
@@ -195,43 +188,43 @@ PlacedPatch PatchBlockers::Place(const Patch& patch) const
   return placed;
 }
 
-PatchBlockers::Candidate PatchBlockers::Classify(
-  std::int32_t t, const PatchGroup& a, const PatchGroup& b) const
+void PatchBlockers::Classify(Candidate& c, const PatchGroup& a, const PatchGroup& b) const
 {
-  Candidate c{ t, Place3::Harmless, false, {} };
+  const std::int32_t t = c.Triangle;
+  c.Kind = Place3::Harmless;
   if ((a.Count == 1 && a.Patches[0].Triangle == t) || (b.Count == 1 && b.Patches[0].Triangle == t))
   {
-    return c;
+    return;
   }
   const Triangle3& v = this->Triangles[t];
   const Vec3& n = this->Normals[t];
   if (n == Vec3{})
   {
-    return c; // without area it hides nothing
+    return; // without area it hides nothing
   }
   const Heights ofA(a, n, v[0]);
   if (ofA.Within())
   {
-    return c;
+    return;
   }
   const Heights ofB(b, n, v[0]);
   if ((ofA.Above() && ofB.Above()) || (ofA.Below() && ofB.Below()) || ofB.Within())
   {
-    return c;
+    return;
   }
   if (ofA.Low > OnPlane && ofB.High < -OnPlane)
   {
     c.Kind = Place3::Parts;
     c.AAbove = true;
-    return c;
+    return;
   }
   if (ofA.High < -OnPlane && ofB.Low > OnPlane)
   {
     c.Kind = Place3::Parts;
-    return c;
+    return;
   }
   c.Kind = BehindAll(v, t, a) || BehindAll(v, t, b) ? Place3::Harmless : Place3::Across;
-  return c;
+  return;
 }
 
 Sight PatchBlockers::Between(
@@ -242,35 +235,44 @@ Sight PatchBlockers::Between(
   std::vector<Candidate>& kept = list;
   kept.clear();
   found.Triangles.clear();
+  found.Parting.clear();
   found.Complete = true;
   const BoxShaft shaft(a.Bounds, b.Bounds, ShaftMargin);
-  const auto look = [&](std::int32_t t) {
+  const auto look = [&](std::int32_t t, std::uint8_t parting) {
     std::uint32_t codes[3];
-    if (shaft.Touches(this->Triangles[t], codes))
+    if (this->Repeated[t] || !shaft.Touches(this->Triangles[t], codes))
     {
-      Candidate c = this->Classify(t, a, b);
-      if (c.Kind != Place3::Harmless)
+      return true;
+    }
+    Candidate c;
+    c.Triangle = t;
+    c.Kind = Place3::Parts;
+    c.AAbove = parting == 2;
+    if (parting == 0)
+    {
+      this->Classify(c, a, b);
+    }
+    if (c.Kind != Place3::Harmless)
+    {
+      for (int k = 0; k < 3; ++k)
       {
-        for (int k = 0; k < 3; ++k)
-        {
-          c.EdgeWithin[k] = (codes[k] & codes[(k + 1) % 3]) == 0;
-        }
-        kept.push_back(c);
+        c.EdgeWithin[k] = (codes[k] & codes[(k + 1) % 3]) == 0;
       }
+      kept.push_back(c);
     }
     return kept.size() <= most;
   };
   if (from && from->Complete)
   {
-    for (const std::int32_t t : from->Triangles)
+    for (std::size_t k = 0; k < from->Triangles.size(); ++k)
     {
-      look(t);
+      look(from->Triangles[k], from->Parting[k]);
     }
   }
   else
   {
-    found.Complete =
-      this->Tree.Visit([&](const Box3& box) { return shaft.Reaches(box); }, look);
+    found.Complete = this->Tree.Visit([&](const Box3& box) { return shaft.Reaches(box); },
+      [&](std::int32_t t) { return look(t, 0); });
   }
   if (kept.empty())
   {
@@ -278,96 +280,87 @@ Sight PatchBlockers::Between(
   }
   Sight sight = this->Sheets(a, b, kept);
   sight = sight == Sight::Clear && !found.Complete ? Sight::Mixed : sight;
-  for (const Candidate& c : kept)
+  if (sight == Sight::Mixed)
   {
-    found.Triangles.push_back(c.Triangle);
-  }
-  return sight;
-}
-
-/// The candidate beyond an edge that carries on what the first one hides; -1: none does.
-std::int32_t PatchBlockers::Partner(const Candidate& c, int corner,
-  const std::vector<std::int32_t>& place, const std::vector<Candidate>& candidates) const
-{
-  const auto carriesOn = [&](std::int32_t code) {
-    const std::int32_t o = place[static_cast<std::size_t>(code >> 1)];
-    const bool turned = (code & 1) != 0;
-    return o >= 0 && candidates[o].Kind == Place3::Parts &&
-        (candidates[o].AAbove == c.AAbove) != turned
-      ? o
-      : -1;
-  };
-  const std::int32_t code = this->Neighbour[static_cast<std::size_t>(c.Triangle)][corner];
-  if (code >= NoNeighbour)
-  {
-    return code == NoNeighbour ? -1 : carriesOn(code);
-  }
-  for (auto k = static_cast<std::size_t>(-2 - code); this->Others[k] != NoNeighbour; ++k)
-  {
-    const std::int32_t o = carriesOn(this->Others[k]);
-    if (o >= 0)
+    for (const Candidate& c : kept)
     {
-      return o;
+      found.Triangles.push_back(c.Triangle);
+      found.Parting.push_back(c.Kind != Place3::Parts ? 0 : (c.AAbove ? 2 : 1));
     }
   }
-  return -1;
+  return sight;
 }
 
 Sight PatchBlockers::Sheets(
   const PatchGroup& a, const PatchGroup& b, std::vector<Candidate>& candidates) const
 {
   const auto count = static_cast<std::int32_t>(candidates.size());
-  thread_local std::vector<std::int32_t> places, parents;
-  thread_local std::vector<std::uint8_t> opens;
-  std::vector<std::int32_t>& place = places;
-  std::vector<std::int32_t>& parent = parents;
-  std::vector<std::uint8_t>& open = opens;
+  thread_local std::vector<std::int32_t> places, opens;
+  std::vector<std::int32_t>& place = places; // of a triangle among the candidates
+  std::vector<std::int32_t>& open = opens;   // where a sheet ends within the shaft, and what hangs on it
   if (place.size() < this->Triangles.size())
   {
     place.assign(this->Triangles.size(), -1);
   }
-  parent.resize(candidates.size());
-  open.assign(candidates.size(), 0);
+  open.clear();
+  const auto end = [&](std::int32_t k) {
+    candidates[k].Open = true;
+    open.push_back(k);
+  };
   for (std::int32_t k = 0; k < count; ++k)
   {
-    parent[k] = k;
-    open[k] = candidates[k].Kind != Place3::Parts;
     place[candidates[k].Triangle] = k;
   }
   for (std::int32_t k = 0; k < count; ++k)
   {
-    for (int corner = 0; corner < 3 && !open[k]; ++corner)
+    Candidate& c = candidates[k];
+    bool ends = c.Kind != Place3::Parts;
+    for (int corner = 0; corner < 3; ++corner)
     {
-      if (!candidates[k].EdgeWithin[corner])
+      c.Next[corner] = -1;
+      if (!c.EdgeWithin[corner])
       {
         continue;
       }
-      const std::int32_t partner = this->Partner(candidates[k], corner, place, candidates);
-      if (partner < 0)
+      // Who carries on what this one hides.
+      const std::int32_t code = this->Neighbour[c.Triangle][corner];
+      const std::int32_t o = code < 0 ? -1 : place[code >> 1];
+      const bool turned = (code & 1) != 0;
+      const bool carriesOn = o >= 0 && candidates[o].Kind == Place3::Parts &&
+        (candidates[o].AAbove == c.AAbove) != turned;
+      ends = ends || !carriesOn;
+      c.Next[corner] = carriesOn ? o : -1;
+    }
+    if (ends)
+    {
+      end(k);
+    }
+  }
+  for (std::size_t done = 0; done < open.size(); ++done)
+  {
+    for (const std::int32_t next : candidates[open[done]].Next)
+    {
+      if (next >= 0 && !candidates[next].Open)
       {
-        open[k] = 1;
-      }
-      else
-      {
-        parent[Root(parent, k)] = Root(parent, partner);
+        end(next);
       }
     }
   }
-  for (std::int32_t k = 0; k < count; ++k)
+  for (const Candidate& c : candidates)
   {
-    place[candidates[k].Triangle] = -1;
-    if (open[k])
-    {
-      open[Root(parent, k)] = 1;
-    }
+    place[c.Triangle] = -1;
+  }
+  if (open.size() == candidates.size())
+  {
+    return Sight::Mixed;
   }
   // What remains closed is crossed by all segments or by none.
   const Vec3 x = Centroid(a.Patches[0].Corners);
   const Vec3 y = Centroid(b.Patches[0].Corners);
-  std::int32_t kept = 0;
-  for (std::int32_t k = 0; k < count; ++k)
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < candidates.size(); ++k)
   {
-    if (open[Root(parent, k)])
+    if (candidates[k].Open)
     {
       candidates[kept++] = candidates[k];
     }
@@ -376,7 +369,7 @@ Sight PatchBlockers::Sheets(
       return Sight::Hidden;
     }
   }
-  candidates.resize(static_cast<std::size_t>(kept));
+  candidates.resize(kept);
   return kept == 0 ? Sight::Clear : Sight::Mixed;
 }
 

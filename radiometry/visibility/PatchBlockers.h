@@ -66,6 +66,9 @@ public:
   struct Candidates
   {
     std::vector<std::int32_t> Triangles;
+    /// Of each: 0 not known, 1 and 2 the groups lie on opposite sides of its plane, the first one
+    /// behind and before it. Holds for parts of the groups, too.
+    std::vector<std::uint8_t> Parting;
     bool Complete = false; // false: there are more than were kept
   };
   /// What is known between two groups. `from`: the candidates of groups that these are parts of,
@@ -85,16 +88,16 @@ private:
   };
   struct Candidate
   {
-    std::int32_t Triangle;
-    Place3 Kind;
-    bool AAbove; // where it parts: the first group is on the side of its normal
-    bool EdgeWithin[3]; // may touch the shaft
+    std::int32_t Triangle = -1;
+    Place3 Kind = Place3::Harmless;
+    bool AAbove = false; // where it parts: the first group is on the side of its normal
+    bool Open = false;   // of a sheet that ends within the shaft
+    bool EdgeWithin[3] = {};   // may touch the shaft
+    std::int32_t Next[3] = {}; // the candidate beyond each edge
   };
-  Candidate Classify(std::int32_t t, const PatchGroup& a, const PatchGroup& b) const;
+  void Classify(Candidate& c, const PatchGroup& a, const PatchGroup& b) const;
   Sight Sheets(
     const PatchGroup& a, const PatchGroup& b, std::vector<Candidate>& candidates) const;
-  std::int32_t Partner(const Candidate& c, int corner, const std::vector<std::int32_t>& place,
-    const std::vector<Candidate>& candidates) const;
   bool Crosses(std::int32_t t, const Vec3& x, const Vec3& y) const;
 
   Vec3 Center;
@@ -103,11 +106,10 @@ private:
   std::vector<Vec3> Normals;
   BoxTree Tree;
   // Who else has the edge from corner k of triangle t to the next one: twice the triangle's number,
-  // plus one where the fronts of the two are on opposite sides. A single other triangle is in
-  // Neighbour itself; of more, the first is at Others[-2 - Neighbour] and -1 follows the last.
+  // plus one where the fronts of the two are on opposite sides; NoNeighbour where none or several do.
   static constexpr std::int32_t NoNeighbour = -1;
   std::vector<std::array<std::int32_t, 3>> Neighbour;
-  std::vector<std::int32_t> Others;
+  std::vector<std::uint8_t> Repeated; // another triangle has the same corners
 };
 
 } // namespace radiometry
