@@ -75,7 +75,7 @@ std::vector<double> LeastClosure(const SymmetricProduct& multiply, const std::ve
     for (std::size_t i = 0; i < n; ++i)
     {
       defect[i] = closed[i] ? areas[i] - sums[i] : 0.0;
-      size += defect[i] * defect[i] / areas[i];
+      size += closed[i] ? defect[i] * defect[i] / areas[i] : 0.0;
     }
     if (size == 0.0)
     {

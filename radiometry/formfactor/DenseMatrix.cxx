@@ -303,10 +303,15 @@ double DenseMatrix::At(std::size_t i, std::size_t j) const
   return this->Value(p / Edge, q / Edge, p % Edge * Edge + q % Edge);
 }
 
-std::vector<std::int32_t> DenseMatrix::Components() const
+std::vector<std::int32_t> DenseMatrix::Components(
+  const std::vector<std::pair<std::int32_t, std::int32_t>>& further) const
 {
   const std::size_t blocks = SymmetricTiles<double>::Blocks(this->N);
   LinkedSets sets(this->N);
+  for (const auto& link : further)
+  {
+    sets.Join(link.first, link.second);
+  }
   for (std::size_t bi = 0; bi < blocks; ++bi)
   {
     for (std::size_t bj = bi; bj < blocks; ++bj)

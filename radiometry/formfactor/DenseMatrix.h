@@ -7,6 +7,7 @@
 #include "radiometry/scene/Parallel.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace radiometry
@@ -35,8 +36,10 @@ public:
   void AddVariance(const double* x, double* squares) const;
   /// This rank's value; 0 where it belongs to another.
   double At(std::size_t i, std::size_t j) const;
-  /// Labels of the sets that exchange light, from 0; collective.
-  std::vector<std::int32_t> Components() const;
+  /// Labels of the sets that exchange light, from 0, with `further` links between elements;
+  /// collective.
+  std::vector<std::int32_t> Components(
+    const std::vector<std::pair<std::int32_t, std::int32_t>>& further = {}) const;
 
   std::size_t Size() const { return this->N; }
   bool Wide() const { return this->Double; }

@@ -3,6 +3,7 @@
 
 #include "radiometry/formfactor/ClosedElements.h"
 #include "radiometry/formfactor/ClosureCorrection.h"
+#include "radiometry/formfactor/CoveredElements.h"
 #include "radiometry/formfactor/DenseMatrix.h"
 #include "radiometry/scene/Collective.h"
 #include "radiometry/scene/InputError.h"
@@ -34,13 +35,35 @@ struct DenseOperator::Internals
   std::size_t N = 0;
   std::vector<double> Areas;
   DenseMatrix Matrix;
+  CoveredElements Covered;
   std::vector<double> Lambda;  // closure correction: S_ij (1 + Lambda_i + Lambda_j); empty: none
   std::vector<double> Cap;     // last resort: S_ij Cap_i Cap_j, none above 1; empty: none
-  std::vector<double> RowSums; // of F, corrected
+  std::vector<double> RowSums; // of S/A, corrected: before covered elements receive from above
+  std::vector<double> AllRowSums;      // of F
   std::vector<double> TruncationShare; // of a row's exchange
   ClosureReport Report;
 
-  /// out = S x for the corrected S; `count` right-hand sides one after the other.
+  /// out = S x for what is not covered; `count` right-hand sides one after the other.
+  void MultiplyUncovered(const double* x, double* out, int count = 1) const
+  {
+    if (this->Covered.Empty())
+    {
+      this->Matrix.Multiply(x, out, count);
+      return;
+    }
+    const auto all = this->N * static_cast<std::size_t>(count);
+    std::vector<double> seen(x, x + all);
+    for (std::size_t k = 0; k < all; ++k)
+    {
+      seen[k] *= this->Covered.Uncovered(k % this->N);
+    }
+    this->Matrix.Multiply(seen.data(), out, count);
+    for (std::size_t k = 0; k < all; ++k)
+    {
+      out[k] *= this->Covered.Uncovered(k % this->N);
+    }
+  }
+  /// The same for the corrected S.
   void Multiply(const double* x, double* out, int count = 1) const
   {
     const auto all = this->N * static_cast<std::size_t>(count);
@@ -60,14 +83,14 @@ struct DenseOperator::Internals
     }
     if (this->Lambda.empty())
     {
-      this->Matrix.Multiply(x, out, count);
+      this->MultiplyUncovered(x, out, count);
     }
     else
     {
       // Both products in one pass over the matrix.
       std::vector<double> both = scale(this->Lambda, x), product(2 * all);
       both.insert(both.end(), x, x + all);
-      this->Matrix.Multiply(both.data(), product.data(), 2 * count);
+      this->MultiplyUncovered(both.data(), product.data(), 2 * count);
       for (std::size_t k = 0; k < all; ++k)
       {
         out[k] = (1.0 + this->Lambda[k % this->N]) * product[all + k] + product[k];
@@ -88,12 +111,17 @@ struct DenseOperator::Internals
       this->RowSums[i] /= this->Areas[i];
     }
   }
+  /// What a row that sees nothing but elements lacks to its whole.
+  double Missing(std::size_t i) const
+  {
+    return this->Covered.Uncovered(i) - this->RowSums[i];
+  }
   double WorstDefect(const std::vector<std::uint8_t>& closed) const
   {
     double worst = 0.0;
     for (std::size_t i = 0; i < this->N; ++i)
     {
-      worst = closed[i] ? std::max(worst, std::abs(1.0 - this->RowSums[i])) : worst;
+      worst = closed[i] ? std::max(worst, std::abs(this->Missing(i))) : worst;
     }
     return worst;
   }
@@ -109,7 +137,8 @@ void DenseOperator::Internals::Close(
   {
     // A row that misses more than its own error explains sees an opening the probes did not.
     const double explained = 5.0 * error[i] + this->TruncationShare[i];
-    closed[i] = closed[i] && std::abs(1.0 - this->RowSums[i]) <= explained;
+    closed[i] = closed[i] && this->Covered.Uncovered(i) > 0.0 &&
+      std::abs(this->Missing(i)) <= explained;
     this->Report.ClosedRows += closed[i];
   }
   this->Report.DefectBefore = this->WorstDefect(closed);
@@ -120,7 +149,7 @@ void DenseOperator::Internals::Close(
     bool any = round == 0 && this->Report.ClosedRows;
     for (std::size_t i = 0; i < this->N; ++i)
     {
-      if (!fixed[i] && this->RowSums[i] > 1.0 + 1e-14)
+      if (!fixed[i] && this->Missing(i) < -1e-14)
       {
         fixed[i] = 1;
         any = true;
@@ -130,9 +159,14 @@ void DenseOperator::Internals::Close(
     {
       break;
     }
+    std::vector<double> seen = this->Areas;
+    for (std::size_t i = 0; i < this->N; ++i)
+    {
+      seen[i] *= this->Covered.Uncovered(i);
+    }
     this->Lambda =
-      LeastClosure([this](const double* x, double* out) { this->Matrix.Multiply(x, out); },
-        this->Areas, fixed, this->Report.LargestChange);
+      LeastClosure([this](const double* x, double* out) { this->MultiplyUncovered(x, out); }, seen,
+        fixed, this->Report.LargestChange);
     this->SumRows();
   }
   this->Report.DefectAfter = this->WorstDefect(closed);
@@ -142,12 +176,18 @@ void DenseOperator::Internals::Close(
 /// mends that. Rows are then scaled down: the exchange must not make light.
 void DenseOperator::Internals::CapRows()
 {
-  if (*std::max_element(this->RowSums.begin(), this->RowSums.end()) > 1.0 + 1e-12)
+  bool any = false;
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    any = any || this->Missing(i) < -1e-12;
+  }
+  if (any)
   {
     this->Cap.resize(this->N);
     for (std::size_t i = 0; i < this->N; ++i)
     {
-      this->Cap[i] = 1.0 / std::max(1.0, this->RowSums[i]);
+      const double whole = this->Covered.Uncovered(i);
+      this->Cap[i] = this->RowSums[i] > whole ? whole / this->RowSums[i] : 1.0;
     }
     this->SumRows();
   }
@@ -206,6 +246,7 @@ DenseOperator::DenseOperator(const Scene& scene, const OcclusionScene& occluders
         blockers = std::make_unique<PatchBlockers>(scene);
       }
       blocks = std::make_unique<ElementBlocks>(elements.GetPatches(), blockers.get());
+      m.Covered = CoveredElements(elements.GetPatches(), options.Threads);
     });
     m.Matrix = DenseMatrix(blocks->Order(), m.Areas, inDouble, options.Threads, options.Ranks);
     ExchangeOptions timed = options;
@@ -223,8 +264,10 @@ DenseOperator::DenseOperator(const Scene& scene, const OcclusionScene& occluders
   for (std::size_t i = 0; i < m.N; ++i)
   {
     const double exchange = m.RowSums[i] * m.Areas[i];
-    m.TruncationShare[i] =
-      (exchange > 0.0 ? truncation[i] / exchange : 0.0) + (inDouble ? 1e-15 : 6e-8);
+    // What is left of a covered element need not see the same as all of it.
+    const double left = m.Covered.Uncovered(i);
+    m.TruncationShare[i] = (exchange > 0.0 ? truncation[i] * left / exchange : 0.0) +
+      (inDouble ? 1e-15 : 6e-8) + 0.25 * (left > 0.0 ? 1.0 - left : 0.0);
   }
   if (m.N > 0 && options.Occlusion)
   {
@@ -233,10 +276,9 @@ DenseOperator::DenseOperator(const Scene& scene, const OcclusionScene& occluders
     this->ApplyError(one.data(), none.data(), error.data(), 1);
     m.Close(FindClosedElements(occluders, elements, options, Part(stage, 0.95, 1.0)), error);
   }
-  if (m.N > 0)
-  {
-    m.CapRows();
-  }
+  m.CapRows();
+  m.AllRowSums = m.RowSums;
+  m.Covered.Receive(m.AllRowSums.data(), 1);
 }
 
 DenseOperator::~DenseOperator() = default;
@@ -264,46 +306,55 @@ void DenseOperator::Apply(const double* B, double* out, int bands) const
       out[i * nb + b] = y[b * m.N + i] / m.Areas[i];
     }
   }
+  m.Covered.Receive(out, bands);
 }
 
-double DenseOperator::RowSum(std::size_t i, int) const { return this->Impl->RowSums[i]; }
+double DenseOperator::RowSum(std::size_t i, int) const { return this->Impl->AllRowSums[i]; }
 
 void DenseOperator::ApplyError(
   const double* B, double* formFactor, double* visibility, int bands) const
 {
   const Internals& m = *this->Impl;
   const auto nb = static_cast<std::size_t>(bands);
-  std::vector<double> magnitude(m.N * nb);
-  for (std::size_t k = 0; k < magnitude.size(); ++k)
+  std::vector<double> magnitude(m.N * nb), exchange(m.N * nb);
+  for (std::size_t i = 0; i < m.N; ++i)
   {
-    magnitude[k] = std::abs(B[k]);
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      magnitude[b * m.N + i] = std::abs(B[i * nb + b]) * m.Covered.Uncovered(i);
+    }
   }
-  this->Apply(magnitude.data(), formFactor, bands);
-  std::vector<double> x(m.N), squares(m.N);
+  m.Matrix.Multiply(magnitude.data(), exchange.data(), bands);
+  std::vector<double> squares(m.N);
   for (std::size_t b = 0; b < nb; ++b)
   {
+    std::fill(squares.begin(), squares.end(), 0.0);
+    m.Matrix.AddVariance(magnitude.data() + b * m.N, squares.data());
     for (std::size_t i = 0; i < m.N; ++i)
     {
-      x[i] = B[i * nb + b];
-      squares[i] = 0.0;
-    }
-    m.Matrix.AddVariance(x.data(), squares.data());
-    for (std::size_t i = 0; i < m.N; ++i)
-    {
-      formFactor[i * nb + b] *= m.TruncationShare[i];
-      visibility[i * nb + b] = std::sqrt(squares[i]) / m.Areas[i];
+      const double share = m.Covered.Uncovered(i) / m.Areas[i];
+      formFactor[i * nb + b] = exchange[b * m.N + i] * share * m.TruncationShare[i];
+      visibility[i * nb + b] = std::sqrt(squares[i]) * share;
     }
   }
+  m.Covered.Receive(formFactor, bands);
+  m.Covered.Receive(visibility, bands);
 }
 
 std::vector<std::int32_t> DenseOperator::Components() const
 {
-  return this->Impl->Matrix.Components();
+  std::vector<std::pair<std::int32_t, std::int32_t>> further;
+  for (const CoveredElements::Cover& cover : this->Impl->Covered.All())
+  {
+    further.emplace_back(cover.Element, cover.Top);
+  }
+  return this->Impl->Matrix.Components(further);
 }
 
 std::size_t DenseOperator::MemoryBytes() const
 {
-  return this->Impl->Matrix.MemoryBytes() + 5 * this->Impl->N * sizeof(double);
+  return this->Impl->Matrix.MemoryBytes() + this->Impl->Covered.MemoryBytes() +
+    6 * this->Impl->N * sizeof(double);
 }
 std::int64_t DenseOperator::Samples() const
 {
@@ -320,7 +371,8 @@ std::string DenseOperator::Description() const
 double DenseOperator::Exchange(std::size_t i, std::size_t j) const
 {
   const Internals& m = *this->Impl;
-  const double cap = m.Cap.empty() ? 1.0 : m.Cap[i] * m.Cap[j];
+  const double cap = (m.Cap.empty() ? 1.0 : m.Cap[i] * m.Cap[j]) * m.Covered.Uncovered(i) *
+    m.Covered.Uncovered(j);
   const double change = m.Lambda.empty() ? 1.0 : 1.0 + m.Lambda[i] + m.Lambda[j];
   return cap * change * m.Matrix.At(i, j);
 }
@@ -330,9 +382,11 @@ void DenseOperator::Save(ArchiveWriter& out) const
   const Internals& m = *this->Impl;
   out.Put(m.Areas);
   m.Matrix.Save(out);
+  m.Covered.Save(out);
   out.Put(m.Lambda);
   out.Put(m.Cap);
   out.Put(m.RowSums);
+  out.Put(m.AllRowSums);
   out.Put(m.TruncationShare);
   out.Put(m.Report);
 }
@@ -345,16 +399,18 @@ std::unique_ptr<DenseOperator> DenseOperator::Load(
   in.Get(m.Areas);
   m.N = m.Areas.size();
   m.Matrix.Load(in, threads, ranks);
+  m.Covered.Load(in, m.N);
   in.Get(m.Lambda);
   in.Get(m.Cap);
   in.Get(m.RowSums);
+  in.Get(m.AllRowSums);
   in.Get(m.TruncationShare);
   m.Report = in.Get<ClosureReport>();
   const auto fits = [&](const std::vector<double>& v, bool mayBeEmpty) {
     return v.size() == m.N || (mayBeEmpty && v.empty());
   };
   if (m.Matrix.Size() != m.N || !fits(m.Lambda, true) || !fits(m.Cap, true) ||
-    !fits(m.RowSums, false) || !fits(m.TruncationShare, false))
+    !fits(m.RowSums, false) || !fits(m.AllRowSums, false) || !fits(m.TruncationShare, false))
   {
     throw std::runtime_error("is damaged: rows are missing");
   }

@@ -17,6 +17,9 @@ namespace radiometry
 ///   Reciprocity  exact: S is stored once for both directions
 ///   Closure      rows all of whose probes meet receiving elements are made to sum to one by the
 ///                least change sum dS^2/S that keeps S symmetric, to rounding; others are left
+///   Overlaps     of faces that lie in one another the one of the lower number is on top; what it
+///                covers receives as it does and sends nothing (CoveredElements). Rows that see more
+///                than a hemisphere all the same are scaled down
 ///   Memory       4 or 8 bytes a pair of i < j, and 1 where fractions were sampled; groups that
 ///                exchange nothing take none. Double where n <= 4096 or the tolerance is below 1e-4,
 ///                and the limit allows it for the whole matrix (so that ranks change no digit)
@@ -54,7 +57,7 @@ public:
   ClosureReport Closure() const override;
   std::string Description() const override;
 
-  /// S_ij = A_i F_ij, m^2, after correction. Over ranks 0 where another rank holds it.
+  /// S_ij = A_i F_ij, m^2, after correction, of what is not covered. Over ranks 0 where another rank holds it.
   double Exchange(std::size_t i, std::size_t j) const;
 
 private:

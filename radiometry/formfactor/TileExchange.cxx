@@ -17,6 +17,9 @@ constexpr double Pi = 3.14159265358979323846;
 constexpr int Depths = 14;
 // So few pairs are not halved further.
 constexpr std::size_t FewPairs = 4;
+// Looking at a candidate costs some hundredth of sampling a pair, and settles a tenth of the groups:
+// with more candidates a pair than these the pairs are sampled at once.
+constexpr std::size_t CandidatesPerPair = 3;
 
 } // namespace
 
@@ -94,12 +97,18 @@ void TileExchange::Divide(Work& work, std::size_t a, std::size_t b, int depth) c
     this->Open(work, na, nb);
     return;
   }
-  PatchBlockers::Candidates& between = work.Lists[depth];
   const auto pairs =
     static_cast<std::size_t>(na.Group.Count) * static_cast<std::size_t>(nb.Group.Count);
-  const Sight sight = this->Blockers->Between(na.Group, nb.Group,
-    depth > 0 ? &work.Lists[depth - 1] : nullptr, between,
-    std::clamp<std::size_t>(pairs / 4, 48, 1024));
+  const PatchBlockers::Candidates* whole = depth > 0 ? &work.Lists[depth - 1] : nullptr;
+  if (whole && !this->Late() &&
+    (whole->Complete ? whole->Triangles.size() > CandidatesPerPair * pairs : pairs <= 2 * FewPairs))
+  {
+    this->Mixed(work, na, nb, *whole);
+    return;
+  }
+  PatchBlockers::Candidates& between = work.Lists[depth];
+  const Sight sight = this->Blockers->Between(
+    na.Group, nb.Group, whole, between, std::clamp<std::size_t>(pairs / 4, 48, 1024));
   if (sight == Sight::Hidden)
   {
     return;

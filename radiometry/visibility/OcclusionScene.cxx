@@ -194,6 +194,21 @@ void OcclusionScene::OccludedDirection(
   }
 }
 
+void OcclusionScene::Occluded(
+  const RayEnd* from, const RayEnd* to, std::size_t count, std::uint8_t* hidden) const
+{
+  RayQuery queries[Internals::PacketSize];
+  for (std::size_t k = 0; k < count; k += Internals::PacketSize)
+  {
+    const std::size_t n = std::min(Internals::PacketSize, count - k);
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      queries[j] = this->Impl->MakeQuery(from[k + j], to[k + j]);
+    }
+    this->Impl->OccludedPacket(queries, n, hidden + k);
+  }
+}
+
 const BoxTree& OcclusionScene::Tree() const
 {
   return this->Impl->Tree;

@@ -67,6 +67,8 @@ public:
   void Occluded(const RayEnd* from, std::size_t count, const RayEnd& to, std::uint8_t* hidden) const;
   void OccludedDirection(
     const RayEnd* from, std::size_t count, const Vec3& direction, std::uint8_t* hidden) const;
+  /// ... and to as many ends: hidden[k] is 1 where the segment from from[k] to to[k] is blocked.
+  void Occluded(const RayEnd* from, const RayEnd* to, std::size_t count, std::uint8_t* hidden) const;
   /// The lines at which shadows can begin or end, found when first asked for. `scene`: the one this
   /// was made of.
   const ShadowLines& Lines(

@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr int Sets = 4;
+constexpr int BatchSize = 64; // segments asked at once
 /// Up to so many candidates are asked one by one; the scene's tree is faster beyond.
 constexpr std::size_t FewCandidates = 24;
 
@@ -110,21 +111,20 @@ template <class Hidden>
 PairVisibilityResult Sample(const Triangle3& a, const Vec3& normalA, const Triangle3& b,
   const Vec3& normalB, const PairSampling& sampling, Hidden&& hidden)
 {
-  constexpr int batch = 64;
   PairVisibilityResult result;
   PairSamples s;
   const ShiftedSequence sequences[Sets] = { ShiftedSequence(4 * sampling.Key),
     ShiftedSequence(4 * sampling.Key + 1), ShiftedSequence(4 * sampling.Key + 2),
     ShiftedSequence(4 * sampling.Key + 3) };
-  Vec3 x[batch], y[batch];
-  double kernel[batch];
-  int setOf[batch];
-  std::uint8_t flags[batch];
+  Vec3 x[BatchSize], y[BatchSize];
+  double kernel[BatchSize];
+  int setOf[BatchSize];
+  std::uint8_t flags[BatchSize];
   const auto sampleTo = [&](int end) {
     while (s.Done < end)
     {
       int n = 0;
-      for (; s.Done < end && n + Sets <= batch; ++s.Done)
+      for (; s.Done < end && n + Sets <= BatchSize; ++s.Done)
       {
         for (int set = 0; set < Sets; ++set)
         {
@@ -187,10 +187,13 @@ PairVisibilityResult PairVisibility(const OcclusionScene& scene, const ExchangeP
 {
   return Sample(a.Corners, a.Normal, b.Corners, b.Normal, { key, first, most, wanted },
     [&](const Vec3* x, const Vec3* y, int n, std::uint8_t* flags) {
+      RayEnd from[BatchSize], to[BatchSize];
       for (int k = 0; k < n; ++k)
       {
-        flags[k] = scene.Occluded({ x[k], triangleA }, { y[k], triangleB }) ? 1 : 0;
+        from[k] = { x[k], triangleA };
+        to[k] = { y[k], triangleB };
       }
+      scene.Occluded(from, to, static_cast<std::size_t>(n), flags);
     });
 }
 
@@ -201,14 +204,21 @@ PairVisibilityResult PairVisibility(const OcclusionScene& scene, const PatchBloc
   const bool few = between.Complete && between.Triangles.size() <= FewCandidates;
   return Sample(a.Corners, a.Normal, b.Corners, b.Normal, sampling,
     [&](const Vec3* x, const Vec3* y, int n, std::uint8_t* flags) {
+      if (few)
+      {
+        for (int k = 0; k < n; ++k)
+        {
+          flags[k] = blockers.Blocked(x[k], a, y[k], b, between) ? 1 : 0;
+        }
+        return;
+      }
+      RayEnd from[BatchSize], to[BatchSize];
       for (int k = 0; k < n; ++k)
       {
-        flags[k] = (few ? blockers.Blocked(x[k], a, y[k], b, between)
-                        : scene.Occluded({ blockers.Unplace(x[k]), a.Triangle },
-                            { blockers.Unplace(y[k]), b.Triangle }))
-          ? 1
-          : 0;
+        from[k] = { blockers.Unplace(x[k]), a.Triangle };
+        to[k] = { blockers.Unplace(y[k]), b.Triangle };
       }
+      scene.Occluded(from, to, static_cast<std::size_t>(n), flags);
     });
 }
 

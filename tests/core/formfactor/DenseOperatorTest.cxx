@@ -345,6 +345,72 @@ TEST(DenseOperator, MemoryLimitSaysWhatWouldDo)
   }
 }
 
+TEST(DenseOperator, DuplicatesHalveTheLightOfNeither)
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 3, true);
+  mesh.AddBox({ 0.3, 0.3, 0.2 }, { 0.6, 0.7, 0.5 }, 1, false);
+  test::Mesh twice = mesh;
+  twice.Triangles.insert(twice.Triangles.end(), mesh.Triangles.begin(), mesh.Triangles.end());
+  const Built once(mesh), both(twice);
+  const std::size_t n = once.F.Size();
+  ASSERT_EQ(both.F.Size(), 2 * n);
+  std::vector<double> B(2 * n), seen(n), seenTwice(2 * n), geometry(2 * n), visibility(2 * n);
+  for (std::size_t i = 0; i < 2 * n; ++i)
+  {
+    B[i] = i < n ? 1.0 + std::sin(static_cast<double>(i)) : 17.0; // covered ones send nothing
+  }
+  once.F.Apply(B.data(), seen.data(), 1);
+  both.F.Apply(B.data(), seenTwice.data(), 1);
+  both.F.ApplyError(B.data(), geometry.data(), visibility.data(), 1);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    EXPECT_EQ(seenTwice[i], seenTwice[n + i]) << i;
+    EXPECT_NEAR(seenTwice[i], seen[i], 4.0 * visibility[i] + geometry[i] + 2e-3) << i;
+    EXPECT_NEAR(both.F.RowSum(i), 1.0, 1e-12);
+    EXPECT_EQ(both.F.RowSum(i), both.F.RowSum(n + i));
+  }
+  EXPECT_LT(both.F.Closure().LargestChange, 0.05);
+}
+
+TEST(DenseOperator, APosterOnAWallHidesTheWall)
+{
+  // A half of the floor is covered by a sheet in its plane, of a higher number or a lower one.
+  for (const bool first : { false, true })
+  {
+    test::Mesh mesh;
+    const auto sheet = [&] { mesh.AddGrid({ 0, 0, 0 }, { 0.5, 0, 0 }, { 0, 1, 0 }, 1, 1); };
+    first ? sheet() : void();
+    mesh.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+    first ? void() : sheet();
+    mesh.AddGrid({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, 2, 2);
+    const Built b(mesh);
+    std::vector<double> B(b.F.Size(), 0.0), out(B);
+    const std::size_t floor = first ? 2 : 0, poster = first ? 0 : 2;
+    // The ceiling receives from floor and poster as from one floor.
+    B[0] = B[1] = B[2] = B[3] = 1.0;
+    b.F.Apply(B.data(), out.data(), 1);
+    double flux = 0.0;
+    for (std::size_t i = 4; i < b.F.Size(); ++i)
+    {
+      flux += out[i] * b.F.Areas()[i];
+    }
+    EXPECT_NEAR(flux, 0.199824895698387, first ? 0.01 * 0.2 : 1e-5);
+    // ... and either from what is on top.
+    B[floor] = B[floor + 1] = 0.0;
+    b.F.Apply(B.data(), out.data(), 1);
+    flux = 0.0;
+    for (std::size_t i = 4; i < b.F.Size(); ++i)
+    {
+      flux += out[i] * b.F.Areas()[i];
+    }
+    EXPECT_NEAR(flux, first ? 0.5 * 0.199824895698387 : 0.0, 2e-5);
+    // Both receive.
+    EXPECT_NEAR(b.F.RowSum(poster), 0.1998, 0.05);
+    EXPECT_NEAR(b.F.RowSum(floor), 0.1998, 0.05);
+  }
+}
+
 TEST(DenseOperator, RanksGiveTheSerialValues)
 {
   const Scene scene = Furnished().ToScene();
