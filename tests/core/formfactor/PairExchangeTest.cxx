@@ -3,6 +3,8 @@
 
 #include "radiometry/geometry/PolygonFormFactor.h"
 #include "radiometry/geometry/Quadrature.h"
+#include "radiometry/geometry/Sampling.h"
+#include "tests/core/formfactor/ReferenceExchange.h"
 #include "tests/core/formfactor/Shapes.h"
 
 #include <cmath>
@@ -311,4 +313,137 @@ TEST(PairExchange, RandomPairsAreAdditiveSymmetricAndHonest)
   EXPECT_GT(seen, 100);
   EXPECT_GT(counted[int(ExchangeMethod::Rule)], 10);
   EXPECT_GT(counted[int(ExchangeMethod::Contour)], 10);
+}
+
+namespace
+{
+
+/// Random pairs of one kind.
+struct PairMaker
+{
+  std::uint64_t Key, Count = 0;
+  double U() { return static_cast<double>(Hash64(this->Key, this->Count++) >> 11) * 0x1p-53; }
+  Vec3 Point(double size)
+  {
+    const double x = this->U() - 0.5, y = this->U() - 0.5, z = this->U() - 0.5;
+    return size * Vec3{ x, y, z };
+  }
+  Triangle3 Any(double size, const Vec3& center)
+  {
+    const Vec3 a = this->Point(size), b = this->Point(size), c = this->Point(size);
+    return { center + a, center + b, center + c };
+  }
+};
+
+struct HardPair
+{
+  const char* Name;
+  Triangle3 A, B;
+};
+
+HardPair MakeHard(int kind, std::uint64_t key)
+{
+  PairMaker m{ Hash64(static_cast<std::uint64_t>(kind), key) };
+  const Triangle3 a = m.Any(1.0, {});
+  const Vec3 n = Normalized(AreaNormal2(a));
+  switch (kind)
+  {
+    case 0:
+      return { "through each other", a, m.Any(1.0, {}) };
+    case 1:
+    {
+      Triangle3 b = m.Any(1.0, {});
+      b[1] = a[2];
+      return { "a shared corner", a, b };
+    }
+    case 2:
+    {
+      // Edges in opposite directions: fronts may face each other.
+      Triangle3 b{ a[1], a[0], m.Point(1.0) };
+      return { "a shared edge", a, b };
+    }
+    case 3:
+    {
+      // A part of an edge: a T-junction.
+      const Vec3 p = a[0] + 0.3 * (a[1] - a[0]), q = a[0] + 0.8 * (a[1] - a[0]);
+      return { "a part of an edge", a, { q, p, m.Point(1.0) } };
+    }
+    case 4:
+    {
+      const double gap = 1e-9 * Length(a[1] - a[0]);
+      return { "parallel, a gap of 1e-9", a, { a[0] + gap * n, a[2] + gap * n, a[1] + gap * n } };
+    }
+    case 5:
+    {
+      const Vec3 shift = 0.3 * (a[1] - a[0]) + 0.2 * (a[2] - a[0]);
+      const double gap = 1e-6;
+      return { "overlapping in part, a gap of 1e-6", a,
+        { a[0] + shift + gap * n, a[2] + shift + gap * n, a[1] + shift + gap * n } };
+    }
+    case 6:
+      return { "one a millionth of the other", a, m.Any(1e-6, 0.3 * a[0] + 0.4 * a[1] + 0.3 * a[2] + 2e-6 * n) };
+    case 7:
+    {
+      Triangle3 b = m.Any(1.0, 0.5 * n);
+      b[2] = 0.5 * (b[0] + b[1]) + 1e-4 * (b[2] - b[0]);
+      return { "a sliver", a, b };
+    }
+    case 8:
+      return { "far", a, m.Any(1.0, 30.0 * (n + m.Point(1.0))) };
+    default:
+    {
+      // Standing on the middle of the other, touching by an edge.
+      const Vec3 p = 0.6 * a[0] + 0.2 * a[1] + 0.2 * a[2], q = 0.2 * a[0] + 0.6 * a[1] + 0.2 * a[2];
+      return { "standing on the middle", a, { p, q, 0.5 * (p + q) + n } };
+    }
+  }
+}
+
+} // namespace
+
+TEST(PairExchange, HardPairsAgainstExtendedPrecision)
+{
+  for (int kind = 0; kind < 10; ++kind)
+  {
+    int seen = 0;
+    for (std::uint64_t key = 0; key < 400 && seen < 6; ++key)
+    {
+      const HardPair pair = MakeHard(kind, key);
+      const double exact = reference::Exchange(pair.A, pair.B);
+      // What the reference itself cannot resolve, or rounding of the corners makes or unmakes.
+      if (!(exact > 1e-7 * std::min(Area(pair.A), Area(pair.B))) && kind != 8)
+      {
+        continue;
+      }
+      if (!(exact > 0.0))
+      {
+        continue;
+      }
+      ++seen;
+      const PairExchangeResult r = PairExchange(pair.A, pair.B, 1e-6);
+      EXPECT_NEAR(r.Value / exact, 1.0, 1e-6) << pair.Name << " " << key;
+      EXPECT_LE(std::abs(r.Value - exact), r.Error + 1e-12 * exact) << pair.Name << " " << key;
+      // The other way round, and elsewhere in another size.
+      EXPECT_NEAR(PairExchange(pair.B, pair.A, 1e-6).Value / exact, 1.0, 2e-6)
+        << pair.Name << " " << key;
+    }
+    EXPECT_GE(seen, 5) << "kind " << kind;
+  }
+}
+
+TEST(PairExchange, PolygonsAreSumsOfTheirTriangles)
+{
+  // An L-shaped floor below a square: by rectangles, and by its triangles.
+  const auto square = Quad({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 });
+  std::vector<Triangle3> ell = Quad({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 0.5, 0 });
+  for (const Triangle3& t : Quad({ 0, 0.5, 0 }, { 0.5, 0, 0 }, { 0, 0.5, 0 }))
+  {
+    ell.push_back(t);
+  }
+  const auto missing = Quad({ 0.5, 0.5, 0 }, { 0.5, 0, 0 }, { 0, 0.5, 0 });
+  const PairExchangeResult r = PairExchange(ell, square, 1e-8);
+  const double rest = PairExchange(missing, square, 1e-8).Value;
+  EXPECT_NEAR(r.Value + rest, 0.199824895698387, 3e-9);
+  EXPECT_LE(r.Error, 1e-8 * r.Value);
+  EXPECT_EQ(PairExchange(std::vector<Triangle3>{}, square).Value, 0.0);
 }
