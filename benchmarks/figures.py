@@ -4,16 +4,19 @@
 
     /usr/bin/python3 benchmarks/figures.py
 
-Reads benchmarks/results/direct-*.json; writes docs/images/direct-*.png and what stands in
-docs/accuracy.md between <!-- direct: NAME --> and <!-- end -->.
+Reads benchmarks/results/*.json; writes docs/images/direct-*.png, radiosity-*.png, view-factors.png and
+what stands in docs/accuracy.md between <!-- direct: NAME -->, <!-- radiosity: NAME --> or
+<!-- view: factors --> and <!-- end -->.
 """
 import json
 import os
 import re
+import sys
 
 import matplotlib
 import numpy as np
 
+sys.modules.setdefault("figures", sys.modules[__name__])
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
@@ -24,16 +27,16 @@ FLOOR = 1e-6  # errors below are drawn on this line
 FEWEST = 30  # values, for a bar of coverage
 
 
-def results(name):
-    path = os.path.join(ROOT, "benchmarks", "results", f"direct-{name}.json")
+def results(name, prefix="direct-"):
+    path = os.path.join(ROOT, "benchmarks", "results", f"{prefix}{name}.json")
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
         return json.load(file)
 
 
-def save(figure, name):
-    figure.savefig(os.path.join(ROOT, "docs", "images", f"direct-{name}.png"), dpi=110)
+def save(figure, name, prefix="direct-"):
+    figure.savefig(os.path.join(ROOT, "docs", "images", f"{prefix}{name}.png"), dpi=110)
     plt.close(figure)
 
 
@@ -220,11 +223,11 @@ def coverage_text(data, table):
     return "\n".join(lines)
 
 
-def write(name, text):
+def write(name, text, kind="direct"):
     path = os.path.join(ROOT, "docs", "accuracy.md")
     with open(path, encoding="utf-8") as file:
         page = file.read()
-    mark = re.compile(rf"(<!-- direct: {name} -->\n)(?:.*?\n)??(<!-- end -->)", re.DOTALL)
+    mark = re.compile(rf"(<!-- {kind}: {name} -->\n)(?:.*?\n)??(<!-- end -->)", re.DOTALL)
     assert mark.search(page), f"no place for {name} in docs/accuracy.md"
     page = mark.sub(lambda m: m.group(1) + text + "\n" + m.group(2), page)
     with open(path, "w", encoding="utf-8") as file:
@@ -243,6 +246,8 @@ def main():
         table = coverage_table(coverage)
         draw_coverage(table)
         write("coverage", coverage_text(coverage, table))
+    import figures_radiosity  # takes its helpers from here
+    figures_radiosity.main()
 
 
 if __name__ == "__main__":
