@@ -68,6 +68,7 @@ def surface(points, quads, group=None):
 def ours(data, tolerance, threads, group=None):
     """Rows of the table (from, to, factor, error) and the seconds."""
     run = vr.vtkViewFactorFilter()
+    run.SetAbsoluteTolerance(0.0)
     run.SetInputData(data)
     run.SetRelativeTolerance(tolerance)
     run.SetNumberOfThreads(threads)
@@ -122,7 +123,8 @@ def compare(options, mesh):
         matrix[i.astype(int), j.astype(int)] = f
         spread[i.astype(int), j.astype(int)] = error
         compared = ~np.isnan(mesh.exact)
-        covered = np.abs(matrix - mesh.exact)[compared] <= spread[compared] + 1e-12
+        covered = (np.abs(matrix - mesh.exact)
+                   <= spread + mesh.truth * mesh.exact + 1e-15)[compared]
         run = {"tolerance": tolerance, "seconds": least, **judged(matrix, mesh.exact),
                "covered": float(covered.mean())}
         row["curve"].append(run)
