@@ -132,9 +132,12 @@ def relighting_text(data):
              f"({data['method'].split(':')[0]}).", "",
              "| change | seconds | times faster than the first | agrees with a new filter |",
              "|---|---|---|---|"]
-    lines += [f"| {row['change']} | {row['seconds']:.2f} | {row['factor']:.1f} | "
-              f"{share(row['covered'])} of values within both errors, {100 * row['rmsDifference']:.2f} % "
-              "RMS |" for row in data["rows"]]
+    for row in data["rows"]:
+        agrees = "–"
+        if "covered" in row:
+            agrees = (f"{share(row['covered'])} of values within both errors, "
+                      f"{100 * row['rmsDifference']:.2f} % RMS")
+        lines.append(f"| {row['change']} | {row['seconds']:.2f} | {row['factor']:.1f} | {agrees} |")
     return "\n".join(lines)
 
 

@@ -116,7 +116,7 @@ def main():
     exact, spread, particles = reference.by_particles(
         Mitsuba(len(everywhere), clock, True), box, options.reference_seconds)
     ours = Ours(len(everywhere), time.monotonic)
-    values, _ = ours.run(box, 0.002)
+    values, _ = ours.run(box, 0.002, 0.5 * options.reference_seconds)
     check = reference.agreement(exact, spread, values, ours.stated)
     print(len(box), "cells", particles, "particles", check, file=sys.stderr)
 

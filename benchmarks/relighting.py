@@ -5,8 +5,8 @@
 The furnished scene (benchmarks/FurnishedScene.h) in 1e5 cells through vtkRadiosityFilter: the first
 execution builds what depends on geometry, the following ones change one thing each - point lights moved
 by 0.1 m, dimmed, recoloured, panels dimmed, another reflectance of the walls - in the same filter, which
-is told of nothing. Each change is judged against a new filter that begins with it: the results must agree
-within their stated errors. Seconds are the clock's of Update().
+is told of nothing. The moved lights and the changed reflectance are judged against new filters that begin
+with them: the results must agree within their stated errors. Seconds are the clock's of Update().
 
     ./run --python benchmarks/relighting.py [--cells 1e5] [--threads 0] [--tolerance 0.03]
 
@@ -60,15 +60,15 @@ class Run:
 
 
 def changes(scene):
-    """Name, lights (None: as they are), reflectance, exitance."""
-    yield "lights moved by 0.1 m", scene.lights((0.1, -0.05, -0.05)), None, None
-    yield "lights dimmed to 0.3", scene.lights(factor=(0.3, 0.3, 0.3)), None, None
-    yield "lights recoloured", scene.lights(factor=(1.2, 0.8, 0.4)), None, None
-    yield "panels dimmed to 0.5", scene.lights(), None, 0.5 * scene.exitance
+    """Name, lights, reflectance, exitance (None: as they are), judged against a new filter or not."""
+    yield "lights moved by 0.1 m", scene.lights((0.1, -0.05, -0.05)), None, None, True
+    yield "lights dimmed to 0.3", scene.lights(factor=(0.3, 0.3, 0.3)), None, None, False
+    yield "lights recoloured", scene.lights(factor=(1.2, 0.8, 0.4)), None, None, False
+    yield "panels dimmed to 0.5", scene.lights(), None, 0.5 * scene.exitance, False
     changed = scene.reflectance.copy()
     begin, end = scene.kinds[1]
     changed[begin:end] = (0.5, 0.6, 0.7)
-    yield "reflectance of the walls", scene.lights(), changed, None
+    yield "reflectance of the walls", scene.lights(), changed, None, True
 
 
 def main():
@@ -79,7 +79,7 @@ def main():
     first, _, _, method = run.update()
     print(f"first {first:.2f} s  {method}", file=sys.stderr)
     rows = []
-    for name, lights, reflectance, exitance in changes(scene):
+    for name, lights, reflectance, exitance, judged in changes(scene):
         named(surface.GetCellData(), "DiffuseReflectance",
               scene.reflectance if reflectance is None else reflectance)
         named(surface.GetCellData(), "EmittedExitance",
@@ -87,14 +87,14 @@ def main():
         surface.Modified()
         run.filter.SetInputDataObject(1, lights)
         seconds, values, error, how = run.update()
-        fresh, truth, spread, _ = Run(options, surface, lights).update()
-        covered = float((np.abs(values - truth) <= np.hypot(error, spread)).mean())
-        difference = float(np.sqrt(((values - truth)**2).mean()) / truth.mean())
-        rows.append({"change": name, "seconds": seconds, "factor": first / seconds,
-                     "freshSeconds": fresh, "covered": covered, "rmsDifference": difference,
-                     "method": how})
-        print(f"{name:28s} {seconds:8.3f} s  {first / seconds:6.1f} x  fresh {fresh:.2f} s  "
-              f"agree {covered:.4f}, rms {difference:.1e}", file=sys.stderr)
+        row = {"change": name, "seconds": seconds, "factor": first / seconds, "method": how}
+        if judged:
+            fresh, truth, spread, _ = Run(options, surface, lights).update()
+            row["freshSeconds"] = fresh
+            row["covered"] = float((np.abs(values - truth) <= np.hypot(error, spread)).mean())
+            row["rmsDifference"] = float(np.sqrt(((values - truth)**2).mean()) / truth.mean())
+        rows.append(row)
+        print(row, file=sys.stderr)
     write(options.out, {"question": "a change of light or reflectance beside the first solve",
                         **provenance(), "cells": len(scene), "threads": options.threads,
                         "cores": len(os.sched_getaffinity(0)), "tolerance": options.tolerance,

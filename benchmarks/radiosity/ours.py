@@ -40,12 +40,13 @@ class Ours:
         if method:
             self.name = f"vtkRadiometry, {METHODS[method]}"
 
-    def run(self, box, tolerance):
+    def run(self, box, tolerance, budget=0.0):
         """Irradiance, cells x 3, and the seconds."""
         radiosity = vr.vtkRadiosityFilter()
         radiosity.SetInputData(polydata(box))
         radiosity.SetRelativeTolerance(tolerance)
         radiosity.SetMethod(self.method)
+        radiosity.SetTimeBudget(budget)
         radiosity.SetNumberOfThreads(self.threads)
         begin = self.clock()
         radiosity.Update()
