@@ -204,15 +204,23 @@ double ViewFactorPairs::Variance(const ExchangeStratum& s) const
   return s.Exact * s.Exact * spread;
 }
 
+/// The mean square of what rays may have missed.
 double ViewFactorPairs::Unnoticed(const ExchangeStratum& s, double goal) const
 {
-  if (s.Exact < 0.0 || s.Agreed())
+  if (s.Exact < 0.0)
   {
     return 0.0;
   }
+  if (s.Agreed())
+  {
+    // What a share of which k rays see nothing may be (something stands between, or proof failed).
+    const double missed = 0.75 * s.Exact / (static_cast<double>(Sets) * s.Done + 2.0);
+    return missed * missed;
+  }
   // What pairs of the same kind hide from the rays they got: of V uniform in (0, 1) k rays agree by
   // chance in 2/(k+1) and are then wrong by 4/((k+1)(k+2)(k+3)) in the mean square.
-  const double k = std::max(4.0, std::min(Sets * MostAgreed, s.Exact / (LookedShare * goal)));
+  const double k =
+    std::max(4.0, std::min(Sets * MostAgreed, s.Exact / (LookedShare * goal)));
   return s.Exact * s.Exact * 4.0 / ((k + 1.0) * (k + 2.0) * (k + 3.0)) / (1.0 - 2.0 / (k + 1.0));
 }
 

@@ -158,11 +158,10 @@ void Run::ChooseMethod()
     "Dense: every pair of triangles", "Hierarchical: pairs of clusters of triangles",
     "MonteCarlo: rays from every patch" };
   Result.Method = names[static_cast<int>(method)] + why.str();
-  // Fine where it costs little.
-  const double coarse = std::clamp(0.02 * Options.RelativeTolerance, 1e-9, 1e-3);
-  PairTolerance = pairs <= 1e5
-    ? 1e-9
-    : (pairs <= 1e7 && !Hierarchical ? std::min(1e-6, coarse) : coarse);
+  // Finer than asked for where that costs little; else 0.02 of it, which pairs keep at fifty times
+  // that tolerance (see ViewFactorPairs).
+  const double asked = std::clamp(Options.RelativeTolerance, 1e-12, 1e-2);
+  PairTolerance = pairs <= 4e3 ? std::min(1e-9, asked) : (pairs <= 3e4 ? std::min(1e-6, asked) : asked);
 }
 
 void Run::ByPairs()
