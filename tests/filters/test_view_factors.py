@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The view factor filter: closed forms, View3D's street canyon, invariants, bad input refused."""
+import importlib.util
 import json
 import math
+import os
 
 import numpy as np
 import vtkmodules.all as vtk
-from checks import array, close, fails, run_all, shared, strings
+from checks import SOURCE_DIR, array, close, fails, run_all, shared, strings
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkradiometry import vtkViewFactorFilter
 
@@ -456,6 +458,23 @@ def test_bad_input_is_named():
     # Whole numbers are integers, whatever they are stored as.
     assert set(table(view_factors(tagged(data, [0, 1], "D", float), PatchArray="D"))) == {
         (0, 1), (1, 0)}
+
+
+def test_example_street():
+    path = os.path.join(SOURCE_DIR, "examples", "street", "street.py")
+    spec = importlib.util.spec_from_file_location("street", path)
+    street = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(street)
+    out = street.main().GetCellData()
+    kind, sky = array(out, "Kind"), array(out, "SkyViewFactor")
+    ground = array(out, "GroundViewFactor")
+    assert (ground[kind != street.WALLS] == 0).all()
+    walls = kind == street.WALLS
+    assert (sky[walls] <= 0.5 + array(out, "SkyViewFactorError")[walls]).all()
+    assert sky[kind == street.ROOFS].min() > 0.8 > sky[kind == street.GROUND].mean()
+    everything = sum(array(out, n) for n in ("ViewFactorSum", "EnvironmentViewFactor",
+                                             "BlockedViewFactor"))
+    close(everything, np.ones(len(sky)), 0, 0.03)
 
 
 def test_abort_leaves_nothing():
