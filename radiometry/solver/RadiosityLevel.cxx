@@ -2,6 +2,7 @@
 #include "radiometry/solver/RadiosityLevel.h"
 
 #include "radiometry/formfactor/GroupedOperator.h"
+#include "radiometry/solver/BalanceError.h"
 #include "radiometry/solver/ElementOverlap.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
@@ -340,6 +341,7 @@ void RadiosityLevel::Solve(
   options.Guess = this->HasGuess ? &guess : nullptr;
   options.InverseBound = this->InverseBound.empty() ? nullptr : &this->InverseBound;
   SolveResult r;
+  std::vector<std::int32_t> component; // empty where nothing had to be solved
   if (perCell)
   {
     std::size_t count = 0;
@@ -349,6 +351,10 @@ void RadiosityLevel::Solve(
       this->HasGuess ? &guess : nullptr, stage);
     grouped.Prolong(r.Radiosity.data(), this->Leaving.data(), bands);
     grouped.Prolong(r.Error.data(), this->SolverError.data(), bands);
+    for (std::size_t e = 0; e < n && !r.Component.empty(); ++e)
+    {
+      component.push_back(r.Component[static_cast<std::size_t>(group[e])]);
+    }
     this->F->Apply(this->Leaving.data(), this->Gathered.data(), bands);
   }
   else
@@ -362,6 +368,7 @@ void RadiosityLevel::Solve(
     this->Leaving = std::move(r.Radiosity);
     this->SolverError = std::move(r.Error);
     this->Gathered = std::move(r.Irradiance);
+    component = std::move(r.Component);
   }
   this->Iterations += r.Iterations;
   this->HasGuess = true;
@@ -391,6 +398,8 @@ void RadiosityLevel::Solve(
       v *= LinkCoverage;
     }
   }
+  AddBalanceError(*this->F, component, r.LossShare, context.Bands, this->FormFactorError,
+    this->VisibilityError);
 
   // Errors of direct light travel on as light does.
   Values carried(values), arrived(values);

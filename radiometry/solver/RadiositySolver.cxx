@@ -489,6 +489,14 @@ SolveResult Solve::Run()
     result.InverseBound.assign(this->N, Infinity);
   }
   result.Iterations = s.Iterations;
+  result.Component = s.Component;
+  for (std::size_t c = 0; c < s.Components(); ++c)
+  {
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      result.LossShare.push_back(s.LossShare(c, b));
+    }
+  }
   return result;
 }
 

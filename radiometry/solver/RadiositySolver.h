@@ -5,6 +5,7 @@
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/solver/DiffuseScattering.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace radiometry
@@ -30,6 +31,8 @@ struct SolveResult
   std::vector<double> Irradiance;   // E: what arrives from elements, W/m^2
   std::vector<double> InverseBound; // w, see below: a value an element, or one a band too where
                                     // the operator differs by band
+  std::vector<std::int32_t> Component; // of each element: those that exchange light share a label
+  std::vector<double> LossShare;       // components x bands: of a unit irradiance, what is lost
   std::vector<double> Error; // bound on |Irradiance - exact solution of the discrete equation|
   int Iterations = 0;        // applications of the operator
   double Residual = 0.0;     // greatest |F B - E|, W/m^2
