@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rays of MonteCarloOperator: traced block by block of neighbouring elements, in packets of
-// rays that run in much the same direction.
+// The rays of MonteCarloOperator, traced block by block of neighbouring elements.
 #include "radiometry/formfactor/MonteCarloOperator.h"
 
 #include "radiometry/formfactor/PathFollower.h"
@@ -19,91 +18,7 @@ namespace
 {
 
 constexpr double MiB = 1024.0 * 1024.0;
-constexpr std::size_t BlockElements = 16; // a block has the same rays for any share of the ranks
-constexpr std::size_t BundleRays = 2048;  // sorted by direction together
-constexpr std::size_t DirectionCells = 256;
-
-/// One of 16 x 16 cells of the sphere, neighbours mostly with near numbers: the octahedral map, its
-/// bits interleaved.
-std::size_t DirectionCell(const Vec3& d)
-{
-  const double scale = 1.0 / (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
-  double u = d.x * scale, v = d.y * scale;
-  if (d.z < 0.0)
-  {
-    const double turned = (1.0 - std::fabs(v)) * (u < 0.0 ? -1.0 : 1.0);
-    v = (1.0 - std::fabs(u)) * (v < 0.0 ? -1.0 : 1.0);
-    u = turned;
-  }
-  const auto cell = [](double x) {
-    return static_cast<std::size_t>(std::clamp(8.0 * (x + 1.0), 0.0, 15.0));
-  };
-  const auto spread = [](std::size_t x) {
-    x = (x | (x << 2)) & 0x33;
-    return (x | (x << 1)) & 0x55;
-  };
-  return spread(cell(u)) | (spread(cell(v)) << 1);
-}
-
-/// Rays that are traced together.
-struct Bundle
-{
-  struct Ray
-  {
-    std::int32_t Row; // of this rank; below 0: not kept
-    std::uint8_t Batch;
-    std::uint32_t Index; // in the batch's sequence
-    std::size_t Slot;
-    std::uint64_t Key;
-  };
-  std::vector<RayEnd> From;
-  std::vector<Vec3> Directions;
-  std::vector<Ray> Rays;
-
-  // In the order of tracing.
-  std::vector<RayEnd> SortedFrom;
-  std::vector<Vec3> SortedDirections;
-  std::vector<std::uint32_t> Order;
-  std::vector<SurfaceHit> Hits;
-
-  void Add(const RayEnd& from, const Vec3& direction, const Ray& ray)
-  {
-    this->From.push_back(from);
-    this->Directions.push_back(direction);
-    this->Rays.push_back(ray);
-  }
-  void Clear()
-  {
-    this->From.clear();
-    this->Directions.clear();
-    this->Rays.clear();
-  }
-  void Trace(const OcclusionScene& occluders)
-  {
-    const std::size_t n = this->Rays.size();
-    std::array<std::uint32_t, DirectionCells + 1> begin{};
-    std::vector<std::uint8_t> cell(n);
-    for (std::size_t k = 0; k < n; ++k)
-    {
-      cell[k] = static_cast<std::uint8_t>(DirectionCell(this->Directions[k]));
-      ++begin[cell[k] + std::size_t(1)];
-    }
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    this->Order.resize(n);
-    this->SortedFrom.resize(n);
-    this->SortedDirections.resize(n);
-    this->Hits.resize(n);
-    for (std::size_t k = 0; k < n; ++k)
-    {
-      const std::uint32_t to = begin[cell[k]]++;
-      this->Order[to] = static_cast<std::uint32_t>(k);
-      this->SortedFrom[to] = this->From[k];
-      this->SortedDirections[to] = this->Directions[k];
-    }
-    occluders.Closest(this->SortedFrom.data(), this->SortedDirections.data(), n, this->Hits.data());
-  }
-};
-
+constexpr std::size_t BlockElements = 16;
 } // namespace
 
 /// Counts of paths whose bands differ, of a block's elements.
@@ -169,6 +84,7 @@ void MonteCarloOperator::Trace(const std::vector<std::int32_t>& rays, const Stag
   const std::int32_t most = rays.empty() ? 1 : *std::max_element(rays.begin(), rays.end());
   StageProgress part = stage;
   part.End = stage.Begin + 0.9 * (stage.End - stage.Begin);
+  this->Occluders->PrepareRays(this->Options.Threads);
   Collectively(this->Options.Ranks, [&] {
     if (this->Options.Paths && blocks > 0)
     {
@@ -235,84 +151,57 @@ void MonteCarloOperator::TraceBlock(
   const std::size_t begin = block * BlockElements;
   const std::size_t end = std::min(begin + BlockElements, rays.size());
   const SpecularSurfaces* paths = this->Options.Paths.get();
-  Bundle bundle;
   std::vector<double> weight(this->Width), counted(this->Width);
-
-  const auto finish = [&] {
-    bundle.Trace(*this->Occluders);
-    for (std::size_t k = 0; k < bundle.Order.size(); ++k)
-    {
-      const Bundle::Ray& ray = bundle.Rays[bundle.Order[k]];
-      if (ray.Row < 0)
-      {
-        continue;
-      }
-      const SurfaceHit& hit = bundle.Hits[k];
-      const auto row = static_cast<std::size_t>(ray.Row);
-      std::int32_t& slot = round.Hit[ray.Slot];
-      if (!paths || !paths->GoesOn(hit))
-      {
-        slot = this->Elements->Find(hit.Triangle, hit.Front, hit.U, hit.V);
-        this->Leaks[row] |= slot < 0;
-        continue;
-      }
-      slot = Round::None;
-      std::fill(weight.begin(), weight.end(), 1.0);
-      const auto count = [&](std::int32_t element, const double* w) {
-        if (slot == Round::None &&
-          std::all_of(w, w + this->Width, [](double v) { return v > 1.0 - 1e-9; }))
-        {
-          slot = element;
-          return;
-        }
-        traced.Parts.push_back(
-          { ray.Row, ray.Batch, element, static_cast<std::uint32_t>(traced.Weights.size()) });
-        traced.Weights.insert(traced.Weights.end(), w, w + this->Width);
-      };
-      const PathOutcome outcome =
-        FollowPath(*this->Occluders, *this->Elements, *paths, hit, bundle.SortedDirections[k],
-          Hash64(ray.Key, 0x70617468ull), ray.Index, weight.data(), counted.data(), count);
-      this->Leaks[row] |= outcome.Leaks;
-      this->CutOf[row] += outcome.Cut;
-    }
-    bundle.Clear();
-  };
-
-  for (int batch = 0; batch < Batches; ++batch)
+  for (std::size_t i = std::max(begin, this->Share.Begin); i < std::min(end, this->Share.End); ++i)
   {
-    for (std::size_t i = begin; i < end; ++i)
+    if (rays[i] == 0)
     {
-      if (rays[i] == 0)
-      {
-        continue;
-      }
-      const Patch& patch = this->Elements->GetPatches()[i];
-      const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
-      const auto first = static_cast<std::uint32_t>(this->RaysOf[i] / Batches);
-      const auto count = static_cast<std::uint32_t>(rays[i] / Batches);
-      const bool own = this->Share.Has(i);
-      const std::size_t row = own ? i - this->Share.Begin : 0;
-      const std::size_t slot = own ? round.Begin[row] + static_cast<std::size_t>(batch) * count : 0;
+      continue;
+    }
+    const Patch& patch = this->Elements->GetPatches()[i];
+    const Vec3 normal = Normalized(AreaNormal2(patch.Corners));
+    Vec3 s, t;
+    Frame(normal, s, t);
+    const auto first = static_cast<std::uint32_t>(this->RaysOf[i] / Batches);
+    const auto count = static_cast<std::uint32_t>(rays[i] / Batches);
+    const std::size_t row = i - this->Share.Begin;
+    std::int32_t* slot = round.Hit.data() + round.Begin[row];
+    for (int batch = 0; batch < Batches; ++batch)
+    {
       const std::uint64_t key =
         Hash64(Hash64(this->Options.Seed, i), static_cast<std::uint64_t>(batch));
       const SobolSequence sequence(key);
-      for (std::uint32_t k = 0; k < count; ++k)
+      for (std::uint32_t k = first; k < first + count; ++k, ++slot)
       {
-        const auto u = sequence(first + k);
-        bundle.Add({ TrianglePoint(patch.Corners, u[0], u[1]), patch.Triangle },
-          CosineDirection(normal, u[2], u[3]),
-          { own ? static_cast<std::int32_t>(row) : -1, static_cast<std::uint8_t>(batch), first + k,
-            slot + k, key });
-        if (bundle.Rays.size() == BundleRays)
+        const auto u = sequence(k);
+        const Vec3 direction = CosineDirection(normal, s, t, u[2], u[3]);
+        const SurfaceHit hit = this->Occluders->Closest(
+          { TrianglePoint(patch.Corners, u[0], u[1]), patch.Triangle }, direction);
+        if (!paths || !paths->GoesOn(hit))
         {
-          finish();
+          *slot = this->Elements->Find(hit.Triangle, hit.Front, hit.U, hit.V);
+          this->Leaks[row] |= *slot < 0;
+          continue;
         }
+        *slot = Round::None;
+        std::fill(weight.begin(), weight.end(), 1.0);
+        const auto met = [&](std::int32_t element, const double* w) {
+          if (*slot == Round::None &&
+            std::all_of(w, w + this->Width, [](double v) { return v > 1.0 - 1e-9; }))
+          {
+            *slot = element;
+            return;
+          }
+          traced.Parts.push_back({ static_cast<std::int32_t>(row), batch, element,
+            static_cast<std::uint32_t>(traced.Weights.size()) });
+          traced.Weights.insert(traced.Weights.end(), w, w + this->Width);
+        };
+        const PathOutcome outcome = FollowPath(*this->Occluders, *this->Elements, *paths, hit,
+          direction, Hash64(key, 0x70617468ull), k, weight.data(), counted.data(), met);
+        this->Leaks[row] |= outcome.Leaks;
+        this->CutOf[row] += outcome.Cut;
       }
     }
-  }
-  if (!bundle.Rays.empty())
-  {
-    finish();
   }
 }
 

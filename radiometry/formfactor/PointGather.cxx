@@ -236,6 +236,7 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
   GatherResult result;
   result.Irradiance.assign(points.size() * nb, 0.0);
   result.Error.assign(points.size() * nb, 0.0);
+  occluders.PrepareRays(options.Threads);
   const RankShare share(options.Ranks, points.size());
   std::vector<std::int64_t> rays(share.End - share.Begin, 0);
   Collectively(options.Ranks, [&] {

@@ -103,5 +103,7 @@ inline void Frame(const Vec3& n, Vec3& s, Vec3& t)
 
 /// Direction about the unit normal n with density cos(theta)/pi, from two uniform numbers.
 Vec3 CosineDirection(const Vec3& n, double u, double v);
+/// The same for many about one normal, whose Frame is s, t.
+Vec3 CosineDirection(const Vec3& n, const Vec3& s, const Vec3& t, double u, double v);
 
 } // namespace radiometry

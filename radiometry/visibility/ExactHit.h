@@ -19,6 +19,12 @@ inline constexpr double EndMargin = 1.0 / 65536.0;
 // the wrong side of a neighbour when rounded: such rays are decided in double alone.
 inline constexpr double Closeness = 5e-7;
 
+// A ray that leaves its triangle at more than FreeSine, from a place farther than FreeStart from the
+// rim, where nothing else is so near, is taken up at FreeStart: its own plane, rounded to single
+// precision (1e-7 and as much again by the crossing), lies behind it there.
+inline constexpr double FreeStart = 1.0 / 131072.0;
+inline constexpr double FreeSine = 0.05;
+
 /// A ray in double, with what the filter needs to judge a hit.
 struct RayQuery
 {
@@ -31,6 +37,7 @@ struct RayQuery
   const std::vector<Vec3>* Normals = nullptr;
   bool Ambiguous = false;      // single precision met a triangle's rim near an end
   bool Exact = false;          // an end is too close to a surface for single precision
+  bool Free = false;           // nothing is near the start (FreeStart)
   const std::vector<std::uint8_t>* Passed = nullptr; // by triangle, 1: not asked; null: all are
 };
 

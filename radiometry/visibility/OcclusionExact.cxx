@@ -13,6 +13,8 @@ namespace
 /// Rays that leave a surface at less than this sine are decided in double: where hits are no longer
 /// judged one by one (EndMargin away) they would be within rounding of their own plane.
 constexpr double GrazingSine = 1e-7 / EndMargin;
+/// Of coordinates in the unit box.
+constexpr double Rounding = 1e-14;
 
 /// The length, without the cost of guarding against overflow where there is none.
 double Norm(const Vec3& a)
@@ -67,6 +69,96 @@ bool OcclusionScene::Internals::NearRim(const Vec3& p, std::int32_t t) const
   return false;
 }
 
+std::uint8_t OcclusionScene::Internals::FindCrowded(std::int32_t t) const
+{
+  const Triangle3& own = this->Triangles[t];
+  const Vec3& n = this->Normals[t];
+  if (n == Vec3{})
+  {
+    return 3;
+  }
+  Box3 near;
+  for (const Vec3& p : own)
+  {
+    near.Add(p - Vec3{ FreeStart, FreeStart, FreeStart });
+    near.Add(p + Vec3{ FreeStart, FreeStart, FreeStart });
+  }
+  const auto meets = [&near](const Box3& box) {
+    for (int a = 0; a < 3; ++a)
+    {
+      if (box.Min[a] > near.Max[a] || box.Max[a] < near.Min[a])
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  // True where a line along an edge of `a` (seen along n) parts it from `b`.
+  const auto parted = [&n](const Triangle3& a, const Triangle3& b) {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 across = Normalized(Cross(a[(k + 1) % 3] - a[k], n));
+      const double third = Dot(across, a[(k + 2) % 3] - a[k]);
+      const double side = third > 0.0 ? -1.0 : 1.0;
+      if (across == Vec3{} || third == 0.0)
+      {
+        continue;
+      }
+      if (side * Dot(across, b[0] - a[k]) >= -Rounding &&
+        side * Dot(across, b[1] - a[k]) >= -Rounding &&
+        side * Dot(across, b[2] - a[k]) >= -Rounding)
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  std::uint8_t crowded = 0;
+  this->Tree.Visit(meets, [&](std::int32_t other) {
+    const Triangle3& v = this->Triangles[other];
+    Box3 box;
+    std::uint8_t sides = 0;
+    for (const Vec3& p : v)
+    {
+      box.Add(p);
+      const double height = Dot(n, p - own[0]);
+      sides = static_cast<std::uint8_t>(
+        sides | (height > Rounding ? 1 : 0) | (height < -Rounding ? 2 : 0));
+    }
+    if (other != t && (sides & ~crowded) != 0 && meets(box) && !parted(own, v) && !parted(v, own))
+    {
+      crowded = static_cast<std::uint8_t>(crowded | sides);
+    }
+    return crowded != 3;
+  });
+  return crowded;
+}
+
+bool OcclusionScene::Internals::StartsFree(const RayQuery& q) const
+{
+  if (q.FromTriangle < 0 || !this->KnowsCrowded.load(std::memory_order_acquire))
+  {
+    return false;
+  }
+  const double sine = Dot(q.Direction, this->Normals[q.FromTriangle]);
+  if (std::fabs(sine) < FreeSine ||
+    (this->Crowded[static_cast<std::size_t>(q.FromTriangle)] & (sine > 0.0 ? 1 : 2)) != 0)
+  {
+    return false;
+  }
+  const Triangle3& v = this->Triangles[q.FromTriangle];
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vec3 edge = v[(k + 1) % 3] - v[k];
+    if (LengthSquared(Cross(edge, q.Start - v[k])) <
+      FreeStart * FreeStart * LengthSquared(edge))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool OcclusionScene::Internals::Grazes(const Vec3& direction, std::int32_t t) const
 {
   return std::fabs(Dot(direction, this->Normals[t])) < GrazingSine;
@@ -81,8 +173,9 @@ RayQuery OcclusionScene::Internals::MakeQuery(const RayEnd& from, const Vec3& di
   q.FromTriangle = from.Triangle;
   q.Triangles = &this->Triangles;
   q.Normals = &this->Normals;
+  q.Free = this->StartsFree(q); // then it neither lies at the rim nor grazes
   q.Exact = from.Close ||
-    (from.Triangle >= 0 &&
+    (from.Triangle >= 0 && !q.Free &&
       (this->NearRim(q.Start, from.Triangle) || this->Grazes(q.Direction, from.Triangle)));
   return q;
 }

@@ -13,6 +13,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -31,6 +32,9 @@ struct OcclusionScene::Internals
   std::vector<Vec3> Normals; // unit
   BoxTree Tree;
   RTCScene Handle = nullptr;
+  std::once_flag CrowdedFlag;
+  std::vector<std::uint8_t> Crowded; // by triangle: 1, 2: something stands on its front, its back
+  std::atomic<bool> KnowsCrowded{ false };
   std::once_flag LinesFlag;
   std::unique_ptr<ShadowLines> Lines;
   int Bands = 1;
@@ -65,8 +69,17 @@ struct OcclusionScene::Internals
   /// Rays of neighbours, sixteen at a time.
   static constexpr std::size_t PacketSize = 16;
   void OccludedPacket(RayQuery* queries, std::size_t count, std::uint8_t* hidden) const;
-  SurfaceHit Closest(RayQuery q) const;
-  void ClosestPacket(RayQuery* queries, std::size_t count, SurfaceHit* hits) const;
+  SurfaceHit Closest(const RayQuery& q) const;
+  /// The same, every hit near the start judged in double.
+  SurfaceHit ClosestJudged(RayQuery q) const;
+  /// What stands over the triangle closer than FreeStart: bits as of Crowded.
+  std::uint8_t FindCrowded(std::int32_t t) const;
+  /// True when nothing can be met nearer than FreeStart along a ray from a triangle.
+  bool StartsFree(const RayQuery& q) const;
+  /// Closest of such a ray by single precision alone; false where that cannot tell.
+  bool ClosestFree(const RayQuery& q, SurfaceHit& hit) const;
+  /// Completes what single precision met; false where the ray only seems to meet it.
+  bool Accept(const RayQuery& q, std::int32_t triangle, SurfaceHit& hit) const;
 };
 
 } // namespace radiometry

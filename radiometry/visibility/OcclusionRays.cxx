@@ -247,7 +247,48 @@ void OcclusionScene::Internals::OccludedPacket(
   }
 }
 
-SurfaceHit OcclusionScene::Internals::Closest(RayQuery q) const
+bool OcclusionScene::Internals::ClosestFree(const RayQuery& q, SurfaceHit& hit) const
+{
+  RTCRayHit ray;
+  FillRay(ray.ray, q, EndMargin, 8.0); // the scene is smaller
+  ray.ray.tnear = static_cast<float>(FreeStart);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.primID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  rtcIntersect1(this->Handle, &ray, &arguments);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(this->Handle, &context, &ray);
+#endif
+  hit = {};
+  return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ||
+    this->Accept(q, static_cast<std::int32_t>(ray.hit.primID), hit);
+}
+
+bool OcclusionScene::Internals::Accept(
+  const RayQuery& q, std::int32_t triangle, SurfaceHit& hit) const
+{
+  double distance = 0.0;
+  if (triangle == q.FromTriangle || Judge(q, triangle, false, distance) != Verdict::Hit)
+  {
+    return false;
+  }
+  hit.Triangle = triangle;
+  this->Complete(q, hit);
+  return true;
+}
+
+SurfaceHit OcclusionScene::Internals::Closest(const RayQuery& q) const
+{
+  SurfaceHit free;
+  return q.Free && this->ClosestFree(q, free) ? free : this->ClosestJudged(q);
+}
+
+SurfaceHit OcclusionScene::Internals::ClosestJudged(RayQuery q) const
 {
   double begin = 0.0;
   double end = 0.0;
@@ -305,84 +346,6 @@ SurfaceHit OcclusionScene::Internals::Closest(RayQuery q) const
   this->Complete(q, result);
   result.Distance += skipped;
   return result;
-}
-
-void OcclusionScene::Internals::ClosestPacket(
-  RayQuery* queries, std::size_t count, SurfaceHit* hits) const
-{
-  alignas(64) int valid[PacketSize] = {};
-  RTCRayHit16 rays;
-  double ends[PacketSize] = {};
-  double skipped[PacketSize] = {};
-  bool any = false;
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    RayQuery& q = queries[k];
-    double begin = 0.0;
-    hits[k] = {};
-    if (!this->Handle || !this->Clip(q, begin, ends[k]))
-    {
-      continue;
-    }
-    if (q.Exact)
-    {
-      hits[k] = this->ExactClosest(q, begin, ends[k]);
-      if (hits[k].Triangle >= 0)
-      {
-        this->Complete(q, hits[k]);
-      }
-      continue;
-    }
-    if (begin > 0.0)
-    {
-      q = From(q, begin);
-      ends[k] -= begin;
-      skipped[k] = begin;
-    }
-    FillRay(rays.ray, k, q, ends[k]);
-    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    rays.hit.primID[k] = RTC_INVALID_GEOMETRY_ID;
-    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-    valid[k] = -1;
-    any = true;
-  }
-  if (!any)
-  {
-    return;
-  }
-  FilteredQuery query(queries, true);
-#if RTC_VERSION_MAJOR >= 4
-  auto arguments = query.Arguments<RTCIntersectArguments>(rtcInitIntersectArguments);
-  rtcIntersect16(valid, this->Handle, &rays, &arguments);
-#else
-  rtcIntersect16(valid, this->Handle, query.Context(), &rays);
-#endif
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    if (valid[k] == 0)
-    {
-      continue;
-    }
-    SurfaceHit& hit = hits[k];
-    if (rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
-    {
-      hit.Triangle = static_cast<std::int32_t>(rays.hit.primID[k]);
-      hit.Distance = rays.ray.tfar[k] - EndMargin;
-    }
-    if (queries[k].Ambiguous)
-    {
-      const SurfaceHit exact = this->ExactClosest(queries[k], 0.0, ends[k]);
-      if (exact.Triangle >= 0 && (hit.Triangle < 0 || exact.Distance < hit.Distance))
-      {
-        hit = exact;
-      }
-    }
-    if (hit.Triangle >= 0)
-    {
-      this->Complete(queries[k], hit);
-      hit.Distance += skipped[k];
-    }
-  }
 }
 
 } // namespace radiometry

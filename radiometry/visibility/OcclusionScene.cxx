@@ -269,23 +269,17 @@ std::int32_t OcclusionScene::Touching(Vec3& point, const Vec3& normal, double ro
   return found;
 }
 
-void OcclusionScene::Closest(
-  const RayEnd* from, const Vec3* directions, std::size_t count, SurfaceHit* hits) const
+void OcclusionScene::PrepareRays(int threads) const
 {
-  RayQuery queries[Internals::PacketSize];
-  for (std::size_t k = 0; k < count; k += Internals::PacketSize)
-  {
-    const std::size_t n = std::min(Internals::PacketSize, count - k);
-    for (std::size_t j = 0; j < n; ++j)
-    {
-      queries[j] = this->Impl->MakeQuery(from[k + j], directions[k + j]);
-    }
-    this->Impl->ClosestPacket(queries, n, hits + k);
-    for (std::size_t j = 0; j < n; ++j)
-    {
-      hits[k + j].Distance /= this->Impl->Scale * Length(directions[k + j]);
-    }
-  }
+  Internals& m = *this->Impl;
+  std::call_once(m.CrowdedFlag, [&] {
+    std::vector<std::uint8_t> crowded(m.Triangles.size());
+    ParallelFor(
+      crowded.size(), threads, {},
+      [&](std::size_t t) { crowded[t] = m.FindCrowded(static_cast<std::int32_t>(t)); }, 2e-6);
+    m.Crowded = std::move(crowded);
+    m.KnowsCrowded.store(true, std::memory_order_release);
+  });
 }
 
 SurfaceHit OcclusionScene::Closest(const RayEnd& from, const Vec3& direction) const

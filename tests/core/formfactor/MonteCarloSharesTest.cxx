@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rays of the Monte Carlo operator over ranks, in files and in packets.
+// The rays of the Monte Carlo operator: over ranks, in files, and where they start.
 #include "radiometry/formfactor/MonteCarloOperator.h"
 
 #include "radiometry/geometry/Sampling.h"
@@ -164,7 +164,7 @@ TEST(MonteCarloShares, FilesKeepAll)
   }
 }
 
-TEST(MonteCarloShares, PacketsMeetWhatSingleRaysMeet)
+TEST(MonteCarloShares, RaysThatStartFreeMeetWhatOthersMeet)
 {
   // From corners and rims, along walls, from outside the scene, at things that touch.
   test::Mesh mesh;
@@ -172,7 +172,8 @@ TEST(MonteCarloShares, PacketsMeetWhatSingleRaysMeet)
   mesh.AddBox({ 0.5, 0.8, 0.0 }, { 1.1, 1.7, 0.6 }, 3, false);
   mesh.AddBox({ 1.1, 1.0, 0.0 }, { 1.5, 1.5, 1e-7 }, 1, false);
   const Scene scene = mesh.ToScene();
-  const OcclusionScene occluders(scene);
+  const OcclusionScene occluders(scene), prepared(scene);
+  prepared.PrepareRays();
   std::vector<RayEnd> from;
   std::vector<Vec3> directions;
   const SobolSequence sequence(7);
@@ -193,9 +194,12 @@ TEST(MonteCarloShares, PacketsMeetWhatSingleRaysMeet)
     }
     directions.push_back((1.0 + k % 3) * CosineDirection(normal, u[2], k % 4 == 0 ? 1e-12 : u[3]));
   }
-  std::vector<SurfaceHit> hits(from.size());
-  occluders.Closest(from.data(), directions.data(), from.size(), hits.data());
-  std::size_t met = 0;
+  std::vector<SurfaceHit> hits;
+  for (std::size_t k = 0; k < from.size(); ++k)
+  {
+    hits.push_back(prepared.Closest(from[k], directions[k]));
+  }
+  std::size_t met = 0, same = 0;
   for (std::size_t k = 0; k < from.size(); ++k)
   {
     const SurfaceHit single = occluders.Closest(from[k], directions[k]);
@@ -212,8 +216,11 @@ TEST(MonteCarloShares, PacketsMeetWhatSingleRaysMeet)
     if (single.Triangle >= 0)
     {
       ++met;
-      EXPECT_NEAR(hits[k].Distance, single.Distance, 1e-9);
+      // Sheets 1e-7 apart are one, seen from afar in single precision.
+      EXPECT_NEAR(hits[k].Distance, single.Distance, 5e-7);
+      same += std::abs(hits[k].Distance - single.Distance) < 1e-12;
     }
   }
   EXPECT_GT(met, from.size() / 2);
+  EXPECT_GT(same, met - met / 100);
 }
