@@ -97,8 +97,8 @@ double MissedBetween(const Rule& at, const ElementTree::Node& node, const Vec3& 
     double k = 0.0;
     for (int j = 0; j < from.N; ++j)
     {
-      k += from.Weight[j] *
-        Kernel(at.Between[t], at.BetweenNormal[t], from.Place[j], from.Normal[j]);
+      k +=
+        from.Weight[j] * Kernel(at.Between[t], at.BetweenNormal[t], from.Place[j], from.Normal[j]);
     }
     const double miss = k / mean - 1.0 - Dot(slope, at.Between[t] - node.Center) -
       Dot(turn, at.BetweenNormal[t] - node.Normal);
@@ -132,8 +132,8 @@ ClusterEstimate EstimateExchange(
   const ElementTree::Node& nb = tree[b];
   out.Exchange = mean * na.Area * nb.Area / Pi;
   const ExchangeSlope model(na, nb);
-  const double reach = model.Reach(na) + model.Reach(nb) + model.Bend(na, model.TurnA) +
-    model.Bend(nb, model.TurnB);
+  const double reach =
+    model.Reach(na) + model.Reach(nb) + model.Bend(na, model.TurnA) + model.Bend(nb, model.TurnB);
   out.Slope = reach > 0.95 ? 0.95 / reach : 1.0;
 
   // Rows see the mean over the other's points of what the model misses, and some of its spread.

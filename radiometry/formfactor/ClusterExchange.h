@@ -27,8 +27,7 @@ struct ExchangeSlope
     {
       this->TurnA = 1.0 / this->CosA;
       this->TurnB = 1.0 / this->CosB;
-      this->Slope =
-        (this->TurnB * b.Normal - this->TurnA * a.Normal) + (4.0 / this->R2) * this->R;
+      this->Slope = (this->TurnB * b.Normal - this->TurnA * a.Normal) + (4.0 / this->R2) * this->R;
     }
   }
   /// k, 1/m^2.

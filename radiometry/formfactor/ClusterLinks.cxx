@@ -18,10 +18,12 @@ constexpr double FarEnough = 0.7; // sum of radii over distance at which a rule 
 // Shares of the tolerance that one link may miss of a row. Some hundred links make a row; their
 // errors add by squares.
 constexpr double FormShare = 0.02;
-constexpr double SightShare = 0.08;    // of what differs by the far elements
-constexpr double OwnSightShare = 0.02; // of what differs by the near ones: alike in many links
+constexpr double SightShare = 0.08;     // of what differs by the far elements
+constexpr double OwnSightShare = 0.02;  // of what differs by the near ones: alike in many links
+constexpr std::int32_t MostProven = 64; // elements of a cluster for which proofs are tried
+constexpr std::size_t MostBetween = 12; // triangles between
 constexpr double Negligible = 0.05; // share of the allowance below which what is hidden is left out
-constexpr double Bent = 1.7; // the rule sees four mean normals of a curved cluster, not all
+constexpr double Bent = 1.7;        // the rule sees four mean normals of a curved cluster, not all
 // What of the unevenness of the kernel over the far elements shows in a row, root mean square.
 constexpr double FarShare = 0.5;
 
@@ -31,16 +33,13 @@ std::uint64_t KeyOf(NodePair pair)
 }
 
 /// What k rays that all agree may have missed, mean square, for visible shares uniform in (0, 1).
-double Unnoticed(double k)
-{
-  return 4.0 / ((k + 1.0) * (k + 2.0) * (k + 3.0));
-}
+double Unnoticed(double k) { return 4.0 / ((k + 1.0) * (k + 2.0) * (k + 3.0)); }
 
 } // namespace
 
 ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elements,
-  const OcclusionScene& occluders, const ExchangeOptions& options, bool occlusion, double loosened,
-  const std::vector<std::uint8_t>& covered)
+  const OcclusionScene& occluders, const PatchBlockers* blockers, const ExchangeOptions& options,
+  double loosened, const std::vector<std::uint8_t>& covered)
   : Tree(tree)
   , Elements(elements)
   , Occluders(occluders)
@@ -49,7 +48,7 @@ ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elemen
   , SightAllowance(SightShare * Tolerance)
   , OwnSightAllowance(OwnSightShare * Tolerance)
   , Seed(options.Seed)
-  , Occlusion(occlusion)
+  , Blockers(blockers)
 {
   this->Shapes.reserve(elements.Size());
   this->Triangles.reserve(elements.Size());
@@ -58,6 +57,30 @@ ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elemen
     const Patch& patch = elements.GetPatches()[static_cast<std::size_t>(item)];
     this->Shapes.emplace_back(patch.Corners);
     this->Triangles.push_back(patch.Triangle);
+  }
+  if (blockers)
+  {
+    this->Placed.reserve(elements.Size());
+    for (const std::int32_t item : tree.Order())
+    {
+      this->Placed.push_back(
+        blockers->Place(elements.GetPatches()[static_cast<std::size_t>(item)]));
+    }
+    this->Boxes.resize(tree.Size());
+    for (std::size_t k = tree.Size(); k-- > 0;)
+    {
+      const ElementTree::Node& node = tree[static_cast<std::int32_t>(k)];
+      if (!node.Leaf())
+      {
+        this->Boxes[k] = this->Boxes[k + 1];
+        this->Boxes[k].Add(this->Boxes[static_cast<std::size_t>(node.Second)]);
+        continue;
+      }
+      for (const Vec3& corner : this->Placed[static_cast<std::size_t>(node.First)].Corners)
+      {
+        this->Boxes[k].Add(corner);
+      }
+    }
   }
   this->Covered.assign(tree.Size(), 0);
   for (std::size_t k = tree.Size(); k-- > 0 && !covered.empty();)
@@ -74,7 +97,7 @@ bool ClusterRefiner::Refine(
   NodePair pair, std::size_t most, std::vector<ClusterLink>& links, Tally& tally) const
 {
   Work work;
-  work.Stack.push_back({ pair });
+  work.Stack.push_back({ pair, 0, false, nullptr });
   while (!work.Stack.empty())
   {
     this->Step(work, links);
@@ -98,7 +121,7 @@ std::vector<NodePair> ClusterRefiner::Tasks(
     for (const NodePair& pair : tasks)
     {
       Work work;
-      work.Stack.push_back({ pair });
+      work.Stack.push_back({ pair, 0, false, nullptr });
       this->Step(work, links);
       for (const Open& open : work.Stack)
       {
@@ -126,7 +149,7 @@ void ClusterRefiner::Divide(const Open& open, bool first, Work& work) const
   const std::int32_t middle = this->Tree[this->Tree[whole].Second].First;
   for (const std::int32_t child : { whole + 1, this->Tree[whole].Second })
   {
-    Open part{ { std::min(child, other), std::max(child, other) }, 0, open.Mixed };
+    Open part{ { std::min(child, other), std::max(child, other) }, 0, open.Mixed, open.Between };
     const bool swapped = (child < other) != first;
     for (const Sample& sample : work.Own)
     {
@@ -163,9 +186,11 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   {
     if (!a.Leaf())
     {
-      work.Stack.push_back({ { ia + 1, ia + 1 } });
-      work.Stack.push_back({ { a.Second, a.Second } });
-      work.Stack.push_back({ { ia + 1, a.Second } });
+      for (const NodePair& part : { NodePair{ ia + 1, ia + 1 }, NodePair{ a.Second, a.Second },
+             NodePair{ ia + 1, a.Second } })
+      {
+        work.Stack.push_back({ part, 0, false, nullptr });
+      }
     }
     return;
   }
@@ -214,14 +239,13 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   }
   const double far = FarShare * estimate.Both;
   if (std::max(inA * std::hypot(estimate.SpreadA, FarShare * estimate.SpreadB, far),
-        inB * std::hypot(estimate.SpreadB, FarShare * estimate.SpreadA, far)) >
-    this->FormAllowance)
+        inB * std::hypot(estimate.SpreadB, FarShare * estimate.SpreadA, far)) > this->FormAllowance)
   {
     this->Divide(open, work);
     return;
   }
-  Sight sight;
-  if (this->Occlusion)
+  View sight;
+  if (this->Blockers)
   {
     sight = this->Look(open, std::max(inA, inB), work);
     // Dividing a cluster helps its own elements, and the far ones by half as much.
@@ -244,8 +268,8 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   ClusterLink link;
   link.A = ia;
   link.B = ib;
-  link.Kernel = static_cast<float>(
-    sight.Fraction * estimate.Exchange / a.Area * (this->Tree[0].Area / b.Area));
+  link.Kernel =
+    static_cast<float>(sight.Fraction * estimate.Exchange / a.Area * (this->Tree[0].Area / b.Area));
   link.Slope = static_cast<float>(estimate.Slope);
   const double bent = a.Flat() && b.Flat() ? 1.0 : Bent;
   link.FormA = static_cast<float>(bent * sight.Fraction * std::hypot(estimate.SpreadA, far));
@@ -265,8 +289,7 @@ std::pair<Vec3, Vec3> ClusterRefiner::Ends(const Sample& sample) const
   return { at(sample.I, sample.Place), at(sample.J, sample.Place + 2) };
 }
 
-ClusterRefiner::Sample ClusterRefiner::Cast(
-  NodePair pair, const std::array<double, 4>& u) const
+ClusterRefiner::Sample ClusterRefiner::Cast(NodePair pair, const std::array<double, 4>& u) const
 {
   Sample sample;
   const auto pick = [&](std::int32_t at, double s, double t, std::int32_t& item, float* place) {
@@ -293,7 +316,48 @@ ClusterRefiner::Sample ClusterRefiner::Cast(
   return sample;
 }
 
-ClusterRefiner::Sight ClusterRefiner::Look(const Open& open, double factor, Work& work) const
+PatchGroup ClusterRefiner::GroupOf(std::int32_t node) const
+{
+  PatchGroup group;
+  group.Patches = this->Placed.data() + this->Tree[node].First;
+  group.Count = this->Tree[node].Count;
+  group.Bounds = this->Boxes[static_cast<std::size_t>(node)];
+  group.Center = group.Bounds.Center();
+  group.Half = 0.5 * group.Bounds.Size();
+  return group;
+}
+
+/// What can be said for certain. What may stand between is kept for the parts of the pair.
+Sight ClusterRefiner::Prove(Open& open, Work& work) const
+{
+  const std::int32_t count =
+    std::max(this->Tree[open.Pair.first].Count, this->Tree[open.Pair.second].Count);
+  if (count > MostProven)
+  {
+    return Sight::Mixed;
+  }
+  const Sight sight = this->Blockers->Between(this->GroupOf(open.Pair.first),
+    this->GroupOf(open.Pair.second), open.Between.get(), work.Found, MostBetween);
+  if (sight == Sight::Mixed && work.Found.Complete)
+  {
+    open.Between = std::make_shared<const PatchBlockers::Candidates>(work.Found);
+  }
+  return sight;
+}
+
+ClusterRefiner::View ClusterRefiner::Look(Open& open, double factor, Work& work) const
+{
+  const Sight sight = this->Prove(open, work);
+  if (sight != Sight::Mixed)
+  {
+    View view;
+    view.Fraction = sight == Sight::Clear ? 1.0 : 0.0;
+    return view;
+  }
+  return this->LookByRays(open, factor, work);
+}
+
+ClusterRefiner::View ClusterRefiner::LookByRays(const Open& open, double factor, Work& work) const
 {
   const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
   const int rays = static_cast<int>(
@@ -321,7 +385,7 @@ ClusterRefiner::Sight ClusterRefiner::Look(const Open& open, double factor, Work
       count(sample);
     }
   }
-  Sight sight;
+  View sight;
   if (cast == 0)
   {
     sight.Fraction = 0.5;
@@ -377,8 +441,7 @@ double ClusterRefiner::BlockerPlace(const Work& work) const
   return found > 0 ? std::clamp(sum / found, 0.02, 0.98) : 0.5;
 }
 
-void ClusterRefiner::LinkElements(
-  const Open& open, Work& work, std::vector<ClusterLink>& links) const
+void ClusterRefiner::LinkElements(Open& open, Work& work, std::vector<ClusterLink>& links) const
 {
   const ElementTree::Node& a = this->Tree[open.Pair.first];
   const ElementTree::Node& b = this->Tree[open.Pair.second];
@@ -400,14 +463,26 @@ void ClusterRefiner::LinkElements(
     return;
   }
   PairVisibilityResult seen;
-  if (this->Occlusion)
+  if (this->Blockers)
   {
     const double factor = exchange.Value / std::min(i.Area, j.Area);
     const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
     const double rays = std::clamp(0.125 / (wanted * wanted), open.Mixed ? 16.0 : 4.0, 64.0);
-    const int first = static_cast<int>(std::exp2(std::ceil(std::log2(rays))));
-    seen = PairVisibility(this->Occluders, i, p, j, q, Hash64(this->Seed, KeyOf(open.Pair)), first,
-      4096, wanted);
+    const Sight sight = this->Prove(open, work);
+    if (sight == Sight::Hidden)
+    {
+      return;
+    }
+    if (sight == Sight::Mixed)
+    {
+      PairSampling sampling;
+      sampling.Key = Hash64(this->Seed, KeyOf(open.Pair));
+      sampling.First = static_cast<int>(std::exp2(std::ceil(std::log2(rays))));
+      sampling.Wanted = wanted;
+      seen = PairVisibility(this->Occluders, *this->Blockers,
+        this->Placed[static_cast<std::size_t>(a.First)],
+        this->Placed[static_cast<std::size_t>(b.First)], work.Found, sampling);
+    }
     work.Count.Rays += seen.Rays;
     if (seen.Fraction == 0.0 || seen.Fraction == 1.0)
     {
@@ -421,8 +496,8 @@ void ClusterRefiner::LinkElements(
   ClusterLink link;
   link.A = open.Pair.first;
   link.B = open.Pair.second;
-  link.Kernel = static_cast<float>(
-    seen.Fraction * exchange.Value / i.Area * (this->Tree[0].Area / j.Area));
+  link.Kernel =
+    static_cast<float>(seen.Fraction * exchange.Value / i.Area * (this->Tree[0].Area / j.Area));
   link.Slope = 0.0f;
   link.FormA = link.FormB = static_cast<float>(seen.Fraction * exchange.Error / exchange.Value);
   link.SightA = link.SightB = static_cast<float>(seen.Error);

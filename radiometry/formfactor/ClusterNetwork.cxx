@@ -164,8 +164,8 @@ void ClusterNetwork::Keep(std::vector<std::vector<ClusterLink>>& parts)
       const double back =
         static_cast<double>(link.Factor) * this->Tree[link.A].Area / this->Tree[link.B].Area;
       this->Entries[next[static_cast<std::size_t>(link.A)]++] = { link.B, link.Kernel, { x, y, z },
-        turn, CodedError(link.Factor), CodedError(link.FormA), CodedError(link.FormB), CodedError(link.SightA),
-        CodedError(link.SightB), {} };
+        turn, CodedError(link.Factor), CodedError(link.FormA), CodedError(link.FormB),
+        CodedError(link.SightA), CodedError(link.SightB), {} };
       this->Entries[next[static_cast<std::size_t>(link.B)]++] = { link.A, link.Kernel,
         { -x, -y, -z }, turn, CodedError(back), CodedError(link.FormB), CodedError(link.FormA),
         CodedError(link.SightB), CodedError(link.SightA), {} };

@@ -36,7 +36,8 @@ public:
     std::uint8_t Sight, Dim; // by visibility, the same
     std::uint8_t Unused[2];
   };
-  static constexpr std::size_t BytesOfElement = 900; // tree, shapes, a product of three bands
+  static constexpr std::size_t BytesOfElement =
+    1300; // tree, shapes, what stands between, a product of three bands
   static constexpr std::size_t BytesOfLink = 2 * sizeof(Entry) + sizeof(ClusterLink);
 
   ClusterNetwork() = default;
@@ -51,8 +52,7 @@ public:
   std::size_t Count(const ClusterRefiner& refiner, const StageProgress& stage) const;
 
   /// out = d F d x. Collective.
-  void Multiply(
-    const std::vector<double>& scale, const double* x, double* out, int bands) const;
+  void Multiply(const std::vector<double>& scale, const double* x, double* out, int bands) const;
   /// Sums of the squares of what links miss of d F d B, for elements: by the form of the kernel, by
   /// visibility. Where `closed`, a constant B is received exactly, and what a link misses goes with
   /// the difference of B from `received`. Collective.
@@ -113,7 +113,8 @@ private:
   void Down(const Gather& gather, const Pass& pass) const
   {
     const auto& upper = this->Tree.Upper();
-    this->Each(upper.size(), [&](std::size_t k) { gather(upper[k]); }, 1e-6);
+    this->Each(
+      upper.size(), [&](std::size_t k) { gather(upper[k]); }, 1e-6);
     for (const std::int32_t at : upper)
     {
       if (at > 0)

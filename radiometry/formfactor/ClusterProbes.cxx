@@ -13,8 +13,8 @@ ClusterProbes::ClusterProbes(const OcclusionScene& occluders, const ElementSet& 
   const ExchangeOptions& options, const StageProgress& stage)
 {
   const std::size_t n = elements.Size();
-  const auto points = static_cast<int>(
-    std::clamp<std::size_t>(262144 / std::max<std::size_t>(n, 1), 4, 128));
+  const auto points =
+    static_cast<int>(std::clamp<std::size_t>(262144 / std::max<std::size_t>(n, 1), 4, 128));
   this->Rays = 2 * points;
   this->Covered.assign(n, 0);
   this->Missed.assign(n, 0);
@@ -63,8 +63,8 @@ ClusterProbes::ClusterProbes(const OcclusionScene& occluders, const ElementSet& 
     met += elements.GetAreas()[i] * (1.0 - (found[i] >> 2) / static_cast<double>(this->Rays));
   }
   this->Share = area > 0.0 ? met / area : 1.0;
-  const auto partly = static_cast<std::size_t>(
-    std::count(this->Covered.begin(), this->Covered.end(), 1));
+  const auto partly =
+    static_cast<std::size_t>(std::count(this->Covered.begin(), this->Covered.end(), 1));
   if (partly > n / 3)
   {
     std::fill(this->Covered.begin(), this->Covered.end(), 0);

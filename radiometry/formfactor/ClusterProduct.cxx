@@ -23,9 +23,9 @@ void ClusterNetwork::Multiply(
   {
     return;
   }
-  bands == 1 ? this->Product<1>(scale, x, out, 1)
-             : (bands == 3 ? this->Product<3>(scale, x, out, 3)
-                           : this->Product<0>(scale, x, out, bands));
+  bands == 1
+    ? this->Product<1>(scale, x, out, 1)
+    : (bands == 3 ? this->Product<3>(scale, x, out, 3) : this->Product<0>(scale, x, out, bands));
   this->Total(out, n * static_cast<std::size_t>(bands));
 }
 
@@ -57,9 +57,8 @@ void ClusterNetwork::Product(
       return;
     }
     double* t = turns.data() + static_cast<std::size_t>(curved(at)) * bent;
-    const double* u = curved(child) < 0
-      ? nullptr
-      : turns.data() + static_cast<std::size_t>(curved(child)) * bent;
+    const double* u =
+      curved(child) < 0 ? nullptr : turns.data() + static_cast<std::size_t>(curved(child)) * bent;
     const Vec3 n = this->Tree[child].Normal - node.Normal;
     for (std::size_t b = 0; b < nb; ++b)
     {
@@ -107,12 +106,12 @@ void ClusterNetwork::Product(
         continue;
       }
       const double slope[3] = { kernel * static_cast<double>(entry.Slope[0]),
-        kernel * static_cast<double>(entry.Slope[1]), kernel * static_cast<double>(entry.Slope[2]) };
+        kernel * static_cast<double>(entry.Slope[1]),
+        kernel * static_cast<double>(entry.Slope[2]) };
       for (std::size_t b = 0; b < nb; ++b)
       {
         const double* mb = m + 4 * b;
-        f[4 * b] +=
-          kernel * mb[0] - (slope[0] * mb[1] + slope[1] * mb[2] + slope[2] * mb[3]);
+        f[4 * b] += kernel * mb[0] - (slope[0] * mb[1] + slope[1] * mb[2] + slope[2] * mb[3]);
         f[4 * b + 1] += slope[0] * mb[0];
         f[4 * b + 2] += slope[1] * mb[0];
         f[4 * b + 3] += slope[2] * mb[0];

@@ -24,7 +24,8 @@ bool Behind(const ElementTree::Node& from, const ElementTree::Node& other, doubl
   {
     const double reach = std::abs(Dot(from.Axis, other.Axis)) * other.Thickness +
       Length(Cross(from.Axis, other.Axis)) * other.Radius;
-    const double most = LengthSquared(other.Axis) > 0.0 ? std::min(reach, other.Radius) : other.Radius;
+    const double most =
+      LengthSquared(other.Axis) > 0.0 ? std::min(reach, other.Radius) : other.Radius;
     return Dot(from.Axis, d) + most + from.Thickness <= rounding;
   }
   const double distance = Length(d);
@@ -133,7 +134,9 @@ struct ElementTree::Builder
   {
     const auto first = this->Tree.Items.begin() + node.First;
     const auto last = first + node.Count;
-    const auto place = [&](auto it) { return static_cast<std::int32_t>(it - this->Tree.Items.begin()); };
+    const auto place = [&](auto it) {
+      return static_cast<std::int32_t>(it - this->Tree.Items.begin());
+    };
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     if (depth < Deepest && node.Cone < Aligned)
     {
@@ -148,8 +151,8 @@ struct ElementTree::Builder
       const Vec3 spread{ square.x / node.Count - mean.x * mean.x,
         square.y / node.Count - mean.y * mean.y, square.z / node.Count - mean.z * mean.z };
       const int axis = Widest(spread);
-      const auto cut = std::partition(first, last,
-        [&](std::int32_t i) { return this->Normals[at(i)][axis] < mean[axis]; });
+      const auto cut = std::partition(
+        first, last, [&](std::int32_t i) { return this->Normals[at(i)][axis] < mean[axis]; });
       if (cut != first && cut != last && spread[axis] > 1e-6)
       {
         return place(cut);
@@ -158,8 +161,8 @@ struct ElementTree::Builder
     if (!this->Kinds.empty() && depth < Deepest)
     {
       const std::uint8_t kind = this->Kinds[at(*first)];
-      const auto cut = std::partition(
-        first, last, [&](std::int32_t i) { return this->Kinds[at(i)] == kind; });
+      const auto cut =
+        std::partition(first, last, [&](std::int32_t i) { return this->Kinds[at(i)] == kind; });
       if (cut != last)
       {
         return place(cut);
@@ -202,7 +205,8 @@ struct ElementTree::Builder
 
   static int Widest(const Vec3& v) { return v.x >= v.y && v.x >= v.z ? 0 : (v.y >= v.z ? 1 : 2); }
 
-  void Build(std::int32_t at, std::int32_t parent, std::int32_t first, std::int32_t count, int depth)
+  void Build(
+    std::int32_t at, std::int32_t parent, std::int32_t first, std::int32_t count, int depth)
   {
     Node& node = this->Tree.Nodes[static_cast<std::size_t>(at)];
     node.First = first;

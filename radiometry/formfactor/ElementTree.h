@@ -20,9 +20,9 @@ class ElementTree
 public:
   struct Node
   {
-    Vec3 Center;            // centroid, weighted by area
-    Vec3 Normal;            // mean of the unit normals, weighted by area; shorter than 1 where they differ
-    Vec3 Axis;              // Normal, unit; zero where normals cancel
+    Vec3 Center; // centroid, weighted by area
+    Vec3 Normal; // mean of the unit normals, weighted by area; shorter than 1 where they differ
+    Vec3 Axis;   // Normal, unit; zero where normals cancel
     double Area = 0.0;      // m^2
     double Radius = 0.0;    // greatest distance of a corner from Center
     double Thickness = 0.0; // greatest distance of a corner from the plane about Axis

@@ -56,9 +56,9 @@ struct HierarchicalOperator::Internals
     this->Network.Multiply(this->Scale, one.data(), this->RowSums.data(), 1);
   }
 
-  void Build(const OcclusionScene& occluders, const ElementSet& elements,
-    const std::vector<std::uint8_t>& covered, const ExchangeOptions& options, bool occlusion,
-    double open, double limit, const StageProgress& stage);
+  void Build(const OcclusionScene& occluders, const PatchBlockers* blockers,
+    const ElementSet& elements, const std::vector<std::uint8_t>& covered,
+    const ExchangeOptions& options, double open, double limit, const StageProgress& stage);
   std::vector<double> ScaleStep(const std::vector<std::uint8_t>& fixed, double goal) const;
   /// `fixed`: 1 for rows to be brought to one; becomes 2 for rows that were let go.
   void Close(std::vector<std::uint8_t>& fixed);
@@ -67,9 +67,9 @@ struct HierarchicalOperator::Internals
 };
 
 void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
-  const ElementSet& elements, const std::vector<std::uint8_t>& covered,
-  const ExchangeOptions& options, bool occlusion, double open, double limit,
-  const StageProgress& stage)
+  const PatchBlockers* blockers, const ElementSet& elements,
+  const std::vector<std::uint8_t>& covered, const ExchangeOptions& options, double open,
+  double limit, const StageProgress& stage)
 {
   const auto start = std::chrono::steady_clock::now();
   const auto base = static_cast<double>(this->N * ClusterNetwork::BytesOfElement);
@@ -79,7 +79,7 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
   double seconds = 0.0;
   const auto refiner = [&](double loosened) {
     return ClusterRefiner(
-      this->Network.GetTree(), elements, occluders, options, occlusion, loosened, covered);
+      this->Network.GetTree(), elements, occluders, blockers, options, loosened, covered);
   };
   const double coarsest = 64.0 / options.RelativeTolerance;
   for (this->Loosened = 1.0; room > 0.0; this->Loosened = std::min(coarsest, 3.0 * this->Loosened))
@@ -303,18 +303,19 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     probes = std::make_unique<ClusterProbes>(occluders, elements, options, Part(stage, 0.0, 0.05));
   }
   std::vector<std::uint8_t> covered;
-  bool occlusion = false;
+  std::unique_ptr<PatchBlockers> blockers;
   Collectively(options.Ranks, [&] {
-    occlusion = options.Occlusion && FindConvexity(scene) == Convexity::General;
-    if (occlusion)
+    if (options.Occlusion && FindConvexity(scene) == Convexity::General)
     {
       covered = probes->Covered;
+      blockers = std::make_unique<PatchBlockers>(scene);
     }
     m.Network = ClusterNetwork(ElementTree(elements, covered), options.Threads, options.Ranks);
   });
   // Errors of many links add by squares: what is wanted of rows that receive little is finer.
   const double open = probes ? std::sqrt(std::max(0.04, probes->Share)) : 1.0;
-  m.Build(occluders, elements, covered, options, occlusion, open, limit, Part(stage, 0.05, 0.95));
+  m.Build(
+    occluders, blockers.get(), elements, covered, options, open, limit, Part(stage, 0.05, 0.95));
   m.SumRows();
   if (options.Occlusion)
   {
@@ -325,8 +326,7 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     for (std::size_t i = 0; i < m.N; ++i)
     {
       // A row that misses more than its own error explains sees an opening the probes did not.
-      closed[i] =
-        closed[i] && std::abs(1.0 - m.RowSums[i]) <= 5.0 * (form[i] + sight[i]) + 1e-7;
+      closed[i] = closed[i] && std::abs(1.0 - m.RowSums[i]) <= 5.0 * (form[i] + sight[i]) + 1e-7;
     }
     m.CloseRows(std::move(closed));
   }

@@ -119,7 +119,8 @@ TEST(HierarchicalAgreement, ErrorsCoverWhatAllPairsSay)
         squares += off * off / static_cast<double>(n);
         mean += wanted[i] / static_cast<double>(n);
       }
-      std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(n / 2), ratios.end());
+      std::nth_element(
+        ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(n / 2), ratios.end());
       EXPECT_GE(static_cast<double>(inside), 0.95 * static_cast<double>(n)) << name << bounce;
       EXPECT_LT(ratios[n / 2], 10.0) << name << bounce;
       if (bounce == 1)
