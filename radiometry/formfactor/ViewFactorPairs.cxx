@@ -180,6 +180,13 @@ private:
     {
       return;
     }
+    if (P.Hierarchical && P.Small(node, node))
+    {
+      this->Add(a, a, -1.0, !P.Between);
+      this->Strata.back().Near = true;
+      this->Strata.back().Share = 0.5;
+      return;
+    }
     this->Own(node.Left);
     this->Own(node.Right);
     this->Descend(node.Left, node.Right, !P.Between);
@@ -198,7 +205,9 @@ private:
       this->Leaf(a, b, open);
       return;
     }
-    if (!open && na.Flat && nb.Flat)
+    const bool apart = P.Hierarchical && P.Apart(na, nb);
+    const bool small = P.Hierarchical && P.Small(na, nb);
+    if (!small && !open && na.Flat && nb.Flat)
     {
       const Proof proof = P.Prove(a, b);
       if (proof == Proof::Hidden)
@@ -207,15 +216,11 @@ private:
       }
       open = proof == Proof::Visible;
     }
-    if (P.Hierarchical && static_cast<std::int64_t>(na.Size()) * nb.Size() > FewPairs)
+    if (small || (apart && static_cast<std::int64_t>(na.Size()) * nb.Size() > FewPairs))
     {
-      const bool apart = P.Apart(na, nb);
-      if (apart || P.Small(na, nb))
-      {
-        this->Add(a, b, -1.0, open);
-        this->Strata.back().Near = !apart;
-        return;
-      }
+      this->Add(a, b, -1.0, open);
+      this->Strata.back().Near = !apart;
+      return;
     }
     if (nb.Single() || (!na.Single() && na.Radius > nb.Radius))
     {

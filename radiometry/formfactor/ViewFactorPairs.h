@@ -40,6 +40,7 @@ struct ExchangeStratum
   std::uint32_t Round = 0;
   std::int64_t Rays = 0; // of all rounds
   bool Open = false;     // nothing stands between
+  double Share = 1.0;    // of a cluster's pairs that count: a half of those with itself
   bool Near = false;     // a cluster pair with triangles that touch or nearly so
   bool AnyVisible = false, AnyHidden = false;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/ViewFactorPairs.h"
 
+#include "radiometry/geometry/PolygonFormFactor.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/scene/GatherRecords.h"
 
@@ -78,12 +79,14 @@ void ViewFactorPairs::SamplePoint(
   const ExchangePatch& shapeB = this->Tree.Shape(elementB);
   if (stratum.Near)
   {
-    // Where two triangles are near each other the kernel has a peak: its mean over both in its place.
+    // Where two triangles are near each other the kernel has a peak: its mean over one of them, as seen
+    // from the point on the other.
     const double reach = 1.5 * (shapeA.Radius + shapeB.Radius);
     if (LengthSquared(shapeB.Center - shapeA.Center) < reach * reach)
     {
-      const double mean = Pi * PairExchange(shapeA, shapeB, this->PairTolerance).Value /
-        (shapeA.Area * shapeB.Area);
+      const Vec3 from = TrianglePoint(shapeA.Corners, shareA, u[1]);
+      const double mean = Pi / shapeB.Area *
+        PointToPolygon(from, shapeA.Normal, SmallPolygon(shapeB.Corners));
       if (mean > 0.0)
       {
         const double fraction =
@@ -164,7 +167,7 @@ double ViewFactorPairs::Value(const ExchangeStratum& s) const
   {
     return weight > 0.0 ? s.Exact * visible / weight : 0.5 * s.Exact;
   }
-  return this->Tree[s.A].Area * this->Tree[s.B].Area / Pi * visible /
+  return s.Share * this->Tree[s.A].Area * this->Tree[s.B].Area / Pi * visible /
     (static_cast<double>(Sets) * s.Done);
 }
 
@@ -184,7 +187,7 @@ double ViewFactorPairs::Variance(const ExchangeStratum& s) const
       spread += off * off;
     }
     const double unit =
-      this->Tree[s.A].Area * this->Tree[s.B].Area / Pi / static_cast<double>(s.Done);
+      s.Share * this->Tree[s.A].Area * this->Tree[s.B].Area / Pi / static_cast<double>(s.Done);
     return unit * unit * spread / (Sets * (Sets - 1.0));
   }
   if (!(weight > 0.0))
@@ -241,7 +244,7 @@ double ViewFactorPairs::Deviation(const ExchangeStratum& s) const
   const double rays = static_cast<double>(Sets) * s.Done;
   const double all = s.Exact >= 0.0
     ? s.Exact
-    : this->Tree[s.A].Area * this->Tree[s.B].Area / Pi * weight / rays;
+    : s.Share * this->Tree[s.A].Area * this->Tree[s.B].Area / Pi * weight / rays;
   const double p = 1.0 / (rays + 2.0);
   return std::max(seen, all * std::sqrt(p * (1.0 - p) / Sets));
 }
