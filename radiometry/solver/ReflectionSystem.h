@@ -91,7 +91,8 @@ private:
   std::vector<std::pair<Values, Values>> Outer; // steps of earlier cycles, their unit images
 };
 
-/// The longest cycle of GMRES.
+/// The longest cycle of GMRES, where it fits in so many bytes.
 inline constexpr int LongestCycle = 150;
+inline constexpr double CycleBytes = 5e8;
 
 } // namespace radiometry
