@@ -189,7 +189,14 @@ void DenseOperator::Internals::CapRows()
       const double whole = this->Covered.Uncovered(i);
       this->Cap[i] = this->RowSums[i] > whole ? whole / this->RowSums[i] : 1.0;
     }
+    const std::vector<double> before = this->RowSums;
     this->SumRows();
+    // What was taken away may have been right.
+    for (std::size_t i = 0; i < this->N; ++i)
+    {
+      this->TruncationShare[i] +=
+        this->RowSums[i] > 0.0 ? std::max(0.0, before[i] / this->RowSums[i] - 1.0) : 0.0;
+    }
   }
 }
 
