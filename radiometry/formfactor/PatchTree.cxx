@@ -14,8 +14,8 @@ namespace
 constexpr double Pi = 3.14159265358979323846;
 constexpr std::size_t MostCorners = 8;
 
-/// Puts the half with the lower coordinates along the longest side of their box first; returns where
-/// the other begins.
+/// Puts the half with the lower coordinates along the longest side of their box first; returns
+/// where the other begins.
 template <class Center>
 std::size_t Halve(
   std::vector<std::int32_t>& items, std::size_t begin, std::size_t end, const Center& center)
@@ -118,8 +118,10 @@ std::int32_t PatchTree::BuildGroups(const std::vector<Vec3>& centers,
   this->Nodes.emplace_back();
   const std::size_t middle =
     Halve(order, begin, end, [&](std::int32_t g) { return centers[static_cast<std::size_t>(g)]; });
-  const std::int32_t left = this->BuildGroups(centers, order, begin, middle, start, members, elements);
-  const std::int32_t right = this->BuildGroups(centers, order, middle, end, start, members, elements);
+  const std::int32_t left =
+    this->BuildGroups(centers, order, begin, middle, start, members, elements);
+  const std::int32_t right =
+    this->BuildGroups(centers, order, middle, end, start, members, elements);
   this->Join(at, left, right);
   return at;
 }
@@ -230,9 +232,8 @@ std::int32_t PatchTree::Pick(const Node& node, double& share) const
   const auto found = std::upper_bound(first + node.Begin + 1, first + node.End, target);
   const auto element = static_cast<std::int32_t>(found - first) - 1;
   const double width = this->AreaBefore[element + 1] - this->AreaBefore[element];
-  share = width > 0.0
-    ? std::clamp((target - this->AreaBefore[element]) / width, 0.0, 1.0 - 1e-12)
-    : 0.5;
+  share =
+    width > 0.0 ? std::clamp((target - this->AreaBefore[element]) / width, 0.0, 1.0 - 1e-12) : 0.5;
   return element;
 }
 

@@ -11,8 +11,8 @@
 namespace radiometry
 {
 
-/// The elements of a surface (sides of triangles) in a binary tree in which those of one group stand
-/// together: a node holds elements of one group, or whole groups.
+/// The elements of a surface (sides of triangles) in a binary tree in which those of one group
+/// stand together: a node holds elements of one group, or whole groups.
 ///
 /// Groups and elements are numbered anew by their places in the tree: neighbours in space are
 /// neighbours in it. `Name` leads back.
@@ -68,8 +68,8 @@ private:
   std::int32_t BuildGroups(const std::vector<Vec3>& centers, std::vector<std::int32_t>& order,
     std::size_t begin, std::size_t end, const std::vector<std::int32_t>& start,
     const std::vector<std::int32_t>& members, const ElementSet& elements);
-  std::int32_t BuildElements(
-    std::vector<std::int32_t>& members, std::size_t begin, std::size_t end, const ElementSet& elements);
+  std::int32_t BuildElements(std::vector<std::int32_t>& members, std::size_t begin, std::size_t end,
+    const ElementSet& elements);
   void Join(std::int32_t at, std::int32_t left, std::int32_t right);
   void MakeLeaf(std::int32_t at, const Patch& patch);
 

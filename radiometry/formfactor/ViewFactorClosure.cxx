@@ -126,8 +126,8 @@ double CapExchange(std::vector<GroupExchange>& rows, const std::vector<double>& 
   {
     const auto i = static_cast<std::size_t>(row.I);
     const auto j = static_cast<std::size_t>(row.J);
-    const double cap = std::min({ 1.0, sums[i] > 0.0 ? areas[i] / sums[i] : 1.0,
-      sums[j] > 0.0 ? areas[j] / sums[j] : 1.0 });
+    const double cap = std::min(
+      { 1.0, sums[i] > 0.0 ? areas[i] / sums[i] : 1.0, sums[j] > 0.0 ? areas[j] / sums[j] : 1.0 });
     const double change = (1.0 - cap) * row.Value;
     row.Value -= change;
     row.Truncation += change;

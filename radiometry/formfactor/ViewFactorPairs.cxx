@@ -47,14 +47,13 @@ ConvexPolygon Above(const std::vector<Vec3>& outline, const PatchTree::Node& pla
   return Clip(whole, heights, above) ? above : whole;
 }
 
-/// The error of a pair that 99 % stay below: the bounds of rules are for the worst of shapes. Against
-/// 1e-12 on pairs of rooms, streets and spheres, at tolerances from 1e-6 to 1e-2, 99 % of errors were
-/// below 0.003 of the bound of rules and 0.03 of the estimate of the contour integral, and all below
-/// 0.04 and 0.44.
+/// The error of a pair that 99 % stay below: the bounds of rules are for the worst of shapes.
+/// Against 1e-12 on pairs of rooms, streets and spheres, at tolerances from 1e-6 to 1e-2, 99 % of
+/// errors were below 0.003 of the bound of rules and 0.03 of the estimate of the contour integral,
+/// and all below 0.04 and 0.44.
 double Truncated(const PairExchangeResult& pair)
 {
-  const bool rule =
-    pair.Method == ExchangeMethod::Rule || pair.Method == ExchangeMethod::Closed;
+  const bool rule = pair.Method == ExchangeMethod::Rule || pair.Method == ExchangeMethod::Closed;
   return std::min(pair.Error, (rule ? 0.02 : 0.1) * pair.Error + 1e-14 * pair.Value);
 }
 
@@ -132,8 +131,8 @@ private:
 
   void Begin(std::int32_t a, std::int32_t b)
   {
-    this->Current = Part{ Tree[a].FirstGroup, Tree[b].FirstGroup, 0.0, 0.0, 0.0,
-      this->Strata.size(), 0, 0 };
+    this->Current =
+      Part{ Tree[a].FirstGroup, Tree[b].FirstGroup, 0.0, 0.0, 0.0, this->Strata.size(), 0, 0 };
   }
 
   /// Keeps what the item gave to its row; a row that lies all within the item is refined at once.
@@ -298,8 +297,8 @@ bool ViewFactorPairs::Apart(const PatchTree::Node& a, const PatchTree::Node& b) 
 /// Small beside their groups: not worth dividing before samples say so.
 bool ViewFactorPairs::Small(const PatchTree::Node& a, const PatchTree::Node& b) const
 {
-  const double whole = std::min(this->Tree[this->Tree.Root(a.FirstGroup)].Area,
-    this->Tree[this->Tree.Root(b.FirstGroup)].Area);
+  const double whole = std::min(
+    this->Tree[this->Tree.Root(a.FirstGroup)].Area, this->Tree[this->Tree.Root(b.FirstGroup)].Area);
   return std::min(a.Area, b.Area) <= SmallShare * whole;
 }
 
@@ -386,10 +385,8 @@ void ViewFactorPairs::MakeOwnItems(std::int32_t a, std::vector<Item>& items) con
 void ViewFactorPairs::RunItems(const std::vector<Item>& items, const StageProgress& stage,
   std::vector<Part>& parts, std::vector<ExchangeStratum>& strata)
 {
-  const auto step =
-    static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Size() : 1);
-  const auto rank =
-    static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Rank() : 0);
+  const auto step = static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Size() : 1);
+  const auto rank = static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Rank() : 0);
   const std::size_t own = (items.size() + step - 1 - rank) / step;
   std::vector<std::vector<Part>> partsOf(own);
   std::vector<std::vector<ExchangeStratum>> strataOf(own);
@@ -400,9 +397,9 @@ void ViewFactorPairs::RunItems(const std::vector<Item>& items, const StageProgre
       worker.Run(items[k * step + rank]);
       this->PairCount += worker.Pairs;
       this->RayCount += worker.Rays;
-      this->Bytes += static_cast<std::int64_t>(
-        worker.Parts.size() * 2 * (sizeof(Part) + sizeof(Row)) +
-        worker.Strata.size() * 2 * sizeof(ExchangeStratum));
+      this->Bytes +=
+        static_cast<std::int64_t>(worker.Parts.size() * 2 * (sizeof(Part) + sizeof(Row)) +
+          worker.Strata.size() * 2 * sizeof(ExchangeStratum));
       if (this->Options.MemoryLimit &&
         this->Bytes > static_cast<std::int64_t>(this->Options.MemoryLimit))
       {

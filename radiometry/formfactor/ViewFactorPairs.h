@@ -19,15 +19,15 @@ namespace radiometry
 struct GroupExchange
 {
   std::int32_t I, J;
-  double Value;     // m^2
+  double Value;      // m^2
   double Truncation; // bound of what rules and rounding may have changed, m^2
   double Sampling;   // what 95 % of samples' errors stay below, m^2
   double Error() const { return this->Truncation + this->Sampling; }
 };
 
 /// A pair of nodes of which part of the exchange is sampled, in rounds: a round's points are fresh
-/// and its estimate stands alone, so that what earlier rounds saw decides on where to look and not on
-/// what is counted.
+/// and its estimate stands alone, so that what earlier rounds saw decides on where to look and not
+/// on what is counted.
 struct ExchangeStratum
 {
   static constexpr int Sets = 4; // independent sequences
@@ -35,8 +35,8 @@ struct ExchangeStratum
   double Exact;                  // the unoccluded exchange, known; below 0: sampled too
   double Weight[Sets] = {};      // sums of the kernel
   double Visible[Sets] = {};     // ... where nothing stands between
-  std::uint32_t Done = 0;   // points of each sequence in its last round
-  std::uint32_t Wanted = 1; // in the next; 0: none
+  std::uint32_t Done = 0;        // points of each sequence in its last round
+  std::uint32_t Wanted = 1;      // in the next; 0: none
   std::uint32_t Round = 0;
   std::int64_t Rays = 0; // of all rounds
   bool Open = false;     // nothing stands between
@@ -47,8 +47,8 @@ struct ExchangeStratum
   bool Agreed() const { return !this->AnyVisible || !this->AnyHidden; }
 };
 
-/// The exchange between all groups of a tree by pairs of nodes. Ranks (ViewFactorOptions::Ranks) share
-/// the pairs and the samples; all have all rows after.
+/// The exchange between all groups of a tree by pairs of nodes. Ranks (ViewFactorOptions::Ranks)
+/// share the pairs and the samples; all have all rows after.
 class ViewFactorPairs
 {
 public:
@@ -107,11 +107,12 @@ private:
   double Deviation(const ExchangeStratum& stratum) const;
   double Unnoticed(const ExchangeStratum& stratum, double goal) const;
   /// Sets what a row's strata are to sample first.
-  void Begin(const GroupExchange& row, double scale, ExchangeStratum* strata, std::size_t count) const;
+  void Begin(
+    const GroupExchange& row, double scale, ExchangeStratum* strata, std::size_t count) const;
   /// Sets what a row has got, and what its strata are to sample in the next round; true when there
   /// is none.
-  bool Plan(GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count,
-    bool late) const;
+  bool Plan(
+    GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count, bool late) const;
   void Allot(double goal, double scale, ExchangeStratum* strata, std::size_t count) const;
   void RunItems(const std::vector<Item>& items, const StageProgress& stage,
     std::vector<Part>& parts, std::vector<ExchangeStratum>& strata);

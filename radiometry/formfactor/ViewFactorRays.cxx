@@ -115,8 +115,7 @@ void ViewFactorRays::Trace(const std::vector<std::uint32_t>& rays, const StagePr
     {
       for (std::uint32_t k = this->Done[g]; k < until; k += TaskRays)
       {
-        tasks.push_back(
-          { static_cast<std::int32_t>(g), set, k, std::min(until, k + TaskRays) });
+        tasks.push_back({ static_cast<std::int32_t>(g), set, k, std::min(until, k + TaskRays) });
       }
       this->TotalRays += until - this->Done[g];
     }

@@ -15,11 +15,11 @@ namespace
 
 constexpr double Pi = 3.14159265358979323846;
 constexpr int Sets = ExchangeStratum::Sets;
-constexpr double MostPoints = 1u << 20;  // of each sequence in a row's round
-constexpr double MostAgreed = 1024;      // ... of a stratum all of whose rays agree
-constexpr double LookedShare = 0.4;      // of the goal: what one ray that sees nothing may take
-constexpr double HiddenShare = 1.5;      // ... what one that sees something may add
-constexpr std::size_t FewStrata = 8;     // of a row whose strata must each be looked at well
+constexpr double MostPoints = 1u << 20; // of each sequence in a row's round
+constexpr double MostAgreed = 1024;     // ... of a stratum all of whose rays agree
+constexpr double LookedShare = 0.4;     // of the goal: what one ray that sees nothing may take
+constexpr double HiddenShare = 1.5;     // ... what one that sees something may add
+constexpr std::size_t FewStrata = 8;    // of a row whose strata must each be looked at well
 
 /// What 95 % of Student's t with so many degrees of freedom stay below (within 1 %).
 double Student95(double freedom)
@@ -39,8 +39,8 @@ bool ViewFactorPairs::TimeIsUp() const
 
 double ViewFactorPairs::Goal(const GroupExchange& row) const
 {
-  const double area = std::min(this->Tree[this->Tree.Root(row.I)].Area,
-    this->Tree[this->Tree.Root(row.J)].Area);
+  const double area =
+    std::min(this->Tree[this->Tree.Root(row.I)].Area, this->Tree[this->Tree.Root(row.J)].Area);
   return std::max(
     this->Options.RelativeTolerance * row.Value, this->Options.AbsoluteTolerance * area);
 }
@@ -79,18 +79,19 @@ void ViewFactorPairs::SamplePoint(
   const ExchangePatch& shapeB = this->Tree.Shape(elementB);
   if (stratum.Near)
   {
-    // Where two triangles are near each other the kernel has a peak: its mean over one of them, as seen
-    // from the point on the other.
+    // Where two triangles are near each other the kernel has a peak: its mean over one of them, as
+    // seen from the point on the other.
     const double reach = 1.5 * (shapeA.Radius + shapeB.Radius);
     if (LengthSquared(shapeB.Center - shapeA.Center) < reach * reach)
     {
       const Vec3 from = TrianglePoint(shapeA.Corners, shareA, u[1]);
-      const double mean = Pi / shapeB.Area *
-        PointToPolygon(from, shapeA.Normal, SmallPolygon(shapeB.Corners));
+      const double mean =
+        Pi / shapeB.Area * PointToPolygon(from, shapeA.Normal, SmallPolygon(shapeB.Corners));
       if (mean > 0.0)
       {
-        const double fraction =
-          stratum.Open ? 1.0 : this->NearFraction(elementA, elementB, { shareA, u[1], shareB, u[3] });
+        const double fraction = stratum.Open
+          ? 1.0
+          : this->NearFraction(elementA, elementB, { shareA, u[1], shareB, u[3] });
         stratum.Weight[set] += mean;
         stratum.Visible[set] += mean * fraction;
         stratum.AnyVisible = stratum.AnyVisible || fraction > 0.0;
@@ -134,7 +135,8 @@ double ViewFactorPairs::NearFraction(
   {
     // Shifted by halves: a lattice in four dimensions.
     const auto shifted = [&](int d) {
-      const double v = u[d] + 0.5 * ((d < 2 ? k : k >> 1) & 1) + (d % 2 == 0 ? 0.25 * (k & 1) : 0.0);
+      const double v =
+        u[d] + 0.5 * ((d < 2 ? k : k >> 1) & 1) + (d % 2 == 0 ? 0.25 * (k & 1) : 0.0);
       return v - std::floor(v);
     };
     const Vec3 x = TrianglePoint(shapeA.Corners, shifted(0), shifted(1));
@@ -146,8 +148,8 @@ double ViewFactorPairs::NearFraction(
     if (kernel > 0.0)
     {
       weight += kernel;
-      visible += this->Occluders.Occluded(
-                   { x, this->Tree.Triangle(a) }, { y, this->Tree.Triangle(b) })
+      visible +=
+        this->Occluders.Occluded({ x, this->Tree.Triangle(a) }, { y, this->Tree.Triangle(b) })
         ? 0.0
         : kernel;
     }
@@ -222,13 +224,12 @@ double ViewFactorPairs::Unnoticed(const ExchangeStratum& s, double goal) const
   }
   // What pairs of the same kind hide from the rays they got: of V uniform in (0, 1) k rays agree by
   // chance in 2/(k+1) and are then wrong by 4/((k+1)(k+2)(k+3)) in the mean square.
-  const double k =
-    std::max(4.0, std::min(Sets * MostAgreed, s.Exact / (LookedShare * goal)));
+  const double k = std::max(4.0, std::min(Sets * MostAgreed, s.Exact / (LookedShare * goal)));
   return s.Exact * s.Exact * 4.0 / ((k + 1.0) * (k + 2.0) * (k + 3.0)) / (1.0 - 2.0 / (k + 1.0));
 }
 
-/// Of one point of each sequence: what the sequences' spread says, and where all rays agree what one
-/// more that does not would.
+/// Of one point of each sequence: what the sequences' spread says, and where all rays agree what
+/// one more that does not would.
 double ViewFactorPairs::Deviation(const ExchangeStratum& s) const
 {
   const double seen = std::sqrt(this->Variance(s) * s.Done);
@@ -287,8 +288,9 @@ bool ViewFactorPairs::Plan(
     variance += v;
     fourth += v * v / (Sets - 1.0);
     unnoticed += count <= FewStrata ? scale * scale * this->Unnoticed(s, goal) : 0.0;
-    looked = looked && !(count <= FewStrata && s.Exact > 0.0 && s.Agreed() && s.Done < MostAgreed &&
-      scale * s.Exact > Looked(s) * goal * (static_cast<double>(Sets) * s.Done + 2.0));
+    looked = looked &&
+      !(count <= FewStrata && s.Exact > 0.0 && s.Agreed() && s.Done < MostAgreed &&
+        scale * s.Exact > Looked(s) * goal * (static_cast<double>(Sets) * s.Done + 2.0));
   }
   const double t = variance > 0.0 ? Student95(variance * variance / fourth) : 0.0;
   // A round ends the row when its spread happens to be small: a tenth more.
@@ -344,8 +346,7 @@ void ViewFactorPairs::Allot(
 }
 
 /// All that are to be sampled, each rank its share.
-void ViewFactorPairs::SampleAll(
-  std::vector<ExchangeStratum>& strata, const StageProgress& stage)
+void ViewFactorPairs::SampleAll(std::vector<ExchangeStratum>& strata, const StageProgress& stage)
 {
   std::vector<std::size_t> all;
   for (std::size_t k = 0; k < strata.size(); ++k)
@@ -407,8 +408,8 @@ void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum
       Row& row = rows[r];
       if (!row.Met)
       {
-        row.Met = this->Plan(row.Exchange, known[r], strata.data() + row.First, row.Strata,
-          late > 0.0);
+        row.Met =
+          this->Plan(row.Exchange, known[r], strata.data() + row.First, row.Strata, late > 0.0);
         all = all && row.Met;
       }
       value += row.Exchange.Value;

@@ -21,9 +21,9 @@ namespace
 {
 
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
-constexpr std::uint32_t FirstRays = 256;      // of each patch
-constexpr std::uint32_t MostRays = 1u << 13;  // ... for its environment
-constexpr std::uint32_t MostHits = 1u << 22;  // ... for all that it sees (MonteCarlo)
+constexpr std::uint32_t FirstRays = 256;     // of each patch
+constexpr std::uint32_t MostRays = 1u << 13; // ... for its environment
+constexpr std::uint32_t MostHits = 1u << 22; // ... for all that it sees (MonteCarlo)
 // Pairs of triangles up to which Auto takes every one; fewer where something stands between.
 constexpr double MostPairs = 1e7;
 constexpr double MostBlockedPairs = 1e5;
@@ -45,7 +45,8 @@ private:
   bool TimeIsUp() const
   {
     double late =
-      Options.TimeBudget > 0.0 && this->Result.Convergence.Elapsed() > Options.TimeBudget ? 1.0 : 0.0;
+      Options.TimeBudget > 0.0 && this->Result.Convergence.Elapsed() > Options.TimeBudget ? 1.0
+                                                                                          : 0.0;
     if (Options.Ranks)
     {
       Options.Ranks->Largest(&late, 1);
@@ -149,25 +150,24 @@ void Run::ChooseMethod()
     const double most = Between ? MostBlockedPairs : MostPairs;
     const bool few = pairs <= most || n < 4.0 * static_cast<double>(Tree.Groups());
     method = few ? ViewFactorMethod::Dense : ViewFactorMethod::Hierarchical;
-    why << " (Auto: " << Elements.Size() << " sides of triangles in " << Tree.Groups()
-        << " patches" << (Between ? "" : ", nothing stands between") << ")";
+    why << " (Auto: " << Elements.Size() << " sides of triangles in " << Tree.Groups() << " patches"
+        << (Between ? "" : ", nothing stands between") << ")";
   }
   Hierarchical = method == ViewFactorMethod::Hierarchical;
   ByHits = method == ViewFactorMethod::MonteCarlo;
-  const char* const names[] = { "",
-    "Dense: every pair of triangles", "Hierarchical: pairs of clusters of triangles",
-    "MonteCarlo: rays from every patch" };
+  const char* const names[] = { "", "Dense: every pair of triangles",
+    "Hierarchical: pairs of clusters of triangles", "MonteCarlo: rays from every patch" };
   Result.Method = names[static_cast<int>(method)] + why.str();
   // Finer than asked for where that costs little; else 0.02 of it, which pairs keep at fifty times
   // that tolerance (see ViewFactorPairs).
   const double asked = std::clamp(Options.RelativeTolerance, 1e-12, 1e-2);
-  PairTolerance = pairs <= 4e3 ? std::min(1e-9, asked) : (pairs <= 3e4 ? std::min(1e-6, asked) : asked);
+  PairTolerance =
+    pairs <= 4e3 ? std::min(1e-9, asked) : (pairs <= 3e4 ? std::min(1e-6, asked) : asked);
 }
 
 void Run::ByPairs()
 {
-  ViewFactorPairs pairs(
-    Tree, Occluders, Between.get(), Options, Hierarchical, PairTolerance);
+  ViewFactorPairs pairs(Tree, Occluders, Between.get(), Options, Hierarchical, PairTolerance);
   Rows = pairs.Compute(this->Stage(0.05, 0.7, "view factors"), Result.Convergence);
   Result.Pairs = pairs.Pairs();
   Result.Rays += pairs.Rays();
@@ -202,13 +202,13 @@ void Run::RowsFromHits()
   for (std::size_t k = 0; k < ends.size();)
   {
     const End& first = ends[k];
-    const bool both =
-      k + 1 < ends.size() && ends[k + 1].I == first.I && ends[k + 1].J == first.J;
+    const bool both = k + 1 < ends.size() && ends[k + 1].I == first.I && ends[k + 1].J == first.J;
     const double wi = Rays->Rays(first.I) / Areas[first.I];
     const double wj = Rays->Rays(first.J) / Areas[first.J];
     // An end that met nothing counts as 0.
-    const End second = both ? ends[k + 1] : End{ first.I, first.J, 0.0, 0.0,
-      first.I == first.J ? 0.0 : (first.Weight == wi ? wj : wi) };
+    const End second = both ? ends[k + 1]
+                            : End{ first.I, first.J, 0.0, 0.0,
+                                first.I == first.J ? 0.0 : (first.Weight == wi ? wj : wi) };
     const double sum = first.Weight + second.Weight;
     const double a = first.Weight / sum, b = second.Weight / sum;
     Rows.push_back({ first.I, first.J, a * first.Value + b * second.Value, 0.0,
@@ -228,8 +228,8 @@ void Run::ByRays()
   const int rounds = 11;
   for (int round = 0; round < rounds; ++round)
   {
-    Rays->Trace(wanted, this->Stage(0.05 + 0.6 * round / rounds, 0.05 + 0.6 * (round + 1) / rounds,
-                          "rays"));
+    Rays->Trace(
+      wanted, this->Stage(0.05 + 0.6 * round / rounds, 0.05 + 0.6 * (round + 1) / rounds, "rays"));
     this->RowsFromHits();
     double value = 0.0, error = 0.0;
     std::vector<std::uint8_t> more(Tree.Groups(), 0);
@@ -408,8 +408,8 @@ void Run::LookAround()
   const int rounds = 8;
   for (int round = 0; round < rounds; ++round)
   {
-    Rays->Trace(wanted, this->Stage(0.72 + 0.25 * round / rounds, 0.72 + 0.25 * (round + 1) / rounds,
-                          "environment"));
+    Rays->Trace(wanted,
+      this->Stage(0.72 + 0.25 * round / rounds, 0.72 + 0.25 * (round + 1) / rounds, "environment"));
     bool any = false;
     double value = 0.0, error = 0.0;
     for (std::size_t g = 0; g < wanted.size(); ++g)
@@ -418,8 +418,7 @@ void Run::LookAround()
       const auto met = [&](const RayShare& s) { return s.Error <= this->Goal(s.Value); };
       value += view.Environment.Value;
       error += view.Environment.Error;
-      if ((!met(view.Environment) || !met(view.Sky) || !met(view.Ground)) &&
-        wanted[g] < MostRays)
+      if ((!met(view.Environment) || !met(view.Sky) || !met(view.Ground)) && wanted[g] < MostRays)
       {
         wanted[g] *= 2;
         any = true;
@@ -537,8 +536,8 @@ void Run::Report()
     Result.MeanTruncation /= value;
     Result.MeanSampling /= value;
   }
-  std::sort(Result.Rows.begin(), Result.Rows.end(),
-    [](const ViewFactorRow& a, const ViewFactorRow& b) {
+  std::sort(
+    Result.Rows.begin(), Result.Rows.end(), [](const ViewFactorRow& a, const ViewFactorRow& b) {
       return a.From < b.From || (a.From == b.From && a.To < b.To);
     });
   Result.Rays += Rays->Total();
@@ -548,7 +547,8 @@ void Run::Report()
     missed += row.Error > 1.001 * this->Goal(row.Value);
   }
   std::ostringstream outcome;
-  outcome << (Late ? "Time budget reached" : (missed == 0 ? "Tolerance met" : "Sample limit reached"));
+  outcome << (Late ? "Time budget reached"
+                   : (missed == 0 ? "Tolerance met" : "Sample limit reached"));
   if (missed > 0)
   {
     outcome << "; " << missed << " of " << Result.Rows.size()
@@ -591,8 +591,9 @@ ViewFactorResult Run::Compute()
 
 } // namespace
 
-ViewFactorResult ComputeViewFactors(const Scene& scene, const std::vector<std::int32_t>& patchOfCell,
-  std::size_t patches, const ViewFactorOptions& options, Monitor* monitor)
+ViewFactorResult ComputeViewFactors(const Scene& scene,
+  const std::vector<std::int32_t>& patchOfCell, std::size_t patches,
+  const ViewFactorOptions& options, Monitor* monitor)
 {
   return Run(scene, patchOfCell, patches, options, monitor).Compute();
 }

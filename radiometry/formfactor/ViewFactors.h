@@ -23,8 +23,8 @@ enum class ViewFactorMethod
 
 struct ViewFactorOptions
 {
-  /// F_ij is refined until its error is below max(RelativeTolerance F_ij, AbsoluteTolerance), and so
-  /// is what each patch sees of the environment, the sky and the ground.
+  /// F_ij is refined until its error is below max(RelativeTolerance F_ij, AbsoluteTolerance), and
+  /// so is what each patch sees of the environment, the sky and the ground.
   double RelativeTolerance = 0.01;
   double AbsoluteTolerance = 1e-4;
   double TimeBudget = 0.0;     // seconds after which refinement stops; 0: none
@@ -65,31 +65,32 @@ struct ViewFactorResult
   std::vector<double> ClosureDefect;
   std::vector<std::uint8_t> Closed; // sees nothing but patches
 
-  double ClosureBefore = 0.0, ClosureAfter = 0.0; // greatest |1 - Sum| of closed patches
+  double ClosureBefore = 0.0, ClosureAfter = 0.0;         // greatest |1 - Sum| of closed patches
   double ReciprocityBefore = 0.0, ReciprocityAfter = 0.0; // greatest |A_i F_ij - A_j F_ji|/min(A)
   double LargestCorrection = 0.0;                         // of a view factor
   double LargestSum = 0.0;                                // of a patch's rows, before correction
-  double MeanTruncation = 0.0, MeanSampling = 0.0; // of the rows' errors, averaged by F
-  double OcclusionBound = 0.0; // Occlusion false: the most that leaving it out may change an F
+  double MeanTruncation = 0.0, MeanSampling = 0.0;        // of the rows' errors, averaged by F
+  double OcclusionBound = 0.0;  // Occlusion false: the most that leaving it out may change an F
   bool OcclusionNeeded = false; // something may stand between
-  std::string Method;          // and why
-  std::string Outcome;         // what ended the run, and what the user should know
-  std::int64_t Pairs = 0;      // of triangles' sides that face each other, each once
+  std::string Method;           // and why
+  std::string Outcome;          // what ended the run, and what the user should know
+  std::int64_t Pairs = 0;       // of triangles' sides that face each other, each once
   std::int64_t Rays = 0;
   ConvergenceRecord Convergence;
 };
 
 /// View factors between patches, groups of cells.
-///   Model   F_IJ = (1/A_I) int_I int_J V cos cos/(pi r^2) dA dA, V: nothing stands between. A patch
-///           holds the receiving sides of its cells: front and back of a two-sided one
+///   Model   F_IJ = (1/A_I) int_I int_J V cos cos/(pi r^2) dA dA, V: nothing stands between. A
+///           patch holds the receiving sides of its cells: front and back of a two-sided one
 ///   Reads   patchOfCell: the patch of each of the scene's cells, -1: none (it only blocks)
-///   Method  pairs of triangles by PairExchange where nothing stands between (proved by shafts), with
-///           sampled visibility where something does; far clusters by samples of both ends, allotted
-///           where they reduce a factor's error most; the environment by rays
+///   Method  pairs of triangles by PairExchange where nothing stands between (proved by shafts),
+///           with sampled visibility where something does; far clusters by samples of both ends,
+///           allotted where they reduce a factor's error most; the environment by rays
 ///   Error   covers 95 %: bounds of truncation and the spread of four independent sequences
 ///   Cost    O(pairs of triangles) Dense; O(n) and samples Hierarchical; samples MonteCarlo
 ///   Fails   InputError{"MemoryLimit"}
-ViewFactorResult ComputeViewFactors(const Scene& scene, const std::vector<std::int32_t>& patchOfCell,
-  std::size_t patches, const ViewFactorOptions& options, Monitor* monitor = nullptr);
+ViewFactorResult ComputeViewFactors(const Scene& scene,
+  const std::vector<std::int32_t>& patchOfCell, std::size_t patches,
+  const ViewFactorOptions& options, Monitor* monitor = nullptr);
 
 } // namespace radiometry

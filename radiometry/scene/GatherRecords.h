@@ -11,8 +11,8 @@
 namespace radiometry
 {
 
-/// Every rank's records, rank by rank, on all of them. `begin` gets where each rank's begin, one more
-/// than there are ranks. Without ranks they stay as they are. Collective.
+/// Every rank's records, rank by rank, on all of them. `begin` gets where each rank's begin, one
+/// more than there are ranks. Without ranks they stay as they are. Collective.
 template <class T>
 void GatherRecords(
   const Communicator* ranks, std::vector<T>& records, std::vector<std::size_t>* begin = nullptr)

@@ -49,8 +49,8 @@ struct Patched
       for (int i = 0; i < around; ++i)
       {
         const double a = 2.0 * Pi * i / around;
-        points.push_back(
-          { radius * std::cos(a), radius * std::sin(a), height * (static_cast<double>(j) / bands - 0.5) });
+        points.push_back({ radius * std::cos(a), radius * std::sin(a),
+          height * (static_cast<double>(j) / bands - 0.5) });
       }
     }
     for (int j = 0; j < bands; ++j)
@@ -84,8 +84,8 @@ struct Patched
     for (int i = 0; i < corners; ++i)
     {
       const std::int32_t a = first + 1 + i, b = first + 1 + (i + 1) % corners;
-      this->Mesh.Triangles.push_back(
-        up ? std::array<std::int32_t, 3>{ first, a, b } : std::array<std::int32_t, 3>{ first, b, a });
+      this->Mesh.Triangles.push_back(up ? std::array<std::int32_t, 3>{ first, a, b }
+                                        : std::array<std::int32_t, 3>{ first, b, a });
     }
   }
   ViewFactorResult Compute(const ViewFactorOptions& options = {}) const
@@ -173,8 +173,8 @@ TEST(ViewFactors, PolygonsTendToDiscsAndCylinders)
 
 TEST(ViewFactors, BlockedCylinderSeesTheSphereWithinTheError)
 {
-  // A cylinder in a sphere, behind a wider cylinder: 0.089131566992252 for round ones. Hierarchical at
-  // half a per cent, several seeds; the mesh is close to round.
+  // A cylinder in a sphere, behind a wider cylinder: 0.089131566992252 for round ones. Hierarchical
+  // at half a per cent, several seeds; the mesh is close to round.
   Patched scene;
   scene.AddCylinder(0.125, 1.0, 96, 12, false);
   scene.End();
@@ -347,19 +347,19 @@ TEST(ViewFactors, SkyGroundAndObstacles)
   // A floor sees no ground; its sky is what walls and backs leave.
   EXPECT_EQ(result.Ground.Value[0], 0.0);
   EXPECT_NEAR(result.Sky.Value[0] + wall + result.Blocked.Value[0], 1.0, 2e-3);
-  // The back: a wall of five times the length from its middle, F = 0.2861 to the part right opposite
-  // and beyond; by rays of another kind.
+  // The back: a wall of five times the length from its middle, F = 0.2861 to the part right
+  // opposite and beyond; by rays of another kind.
   EXPECT_GT(result.Blocked.Value[0], wall);
   for (std::size_t k = 0; k < 2; ++k)
   {
-    const double all = result.Sum.Value[k] + result.Sky.Value[k] + result.Ground.Value[k] +
-      result.Blocked.Value[k];
+    const double all =
+      result.Sum.Value[k] + result.Sky.Value[k] + result.Ground.Value[k] + result.Blocked.Value[k];
     EXPECT_NEAR(all, 1.0, 5e-3);
     EXPECT_NEAR(result.Environment.Value[k], result.Sky.Value[k] + result.Ground.Value[k], 5e-3);
   }
   // The wall's lower half of the view falls on the floor or past it.
-  EXPECT_NEAR(result.Ground.Value[1] + result.Sky.Value[1] + result.Sum.Value[1] +
-      result.Blocked.Value[1],
+  EXPECT_NEAR(
+    result.Ground.Value[1] + result.Sky.Value[1] + result.Sum.Value[1] + result.Blocked.Value[1],
     1.0, 5e-3);
 }
 
