@@ -135,6 +135,13 @@ double Tracer::SourcePower(std::size_t s, const Patch& patch, const Vec3& normal
   {
     most = std::max(most, source.Roughly(corner, normal));
   }
+  const double area = Area(patch.Corners);
+  if (source.Is == SpecularSource::Kind::Beam && area > 0.0)
+  {
+    // A narrow cone may fall between all of these.
+    double error = 0.0;
+    most = std::max(most, source.Beam->OnPolygon(patch.Corners.data(), 3, normal, error) / area);
+  }
   return most * source.Strength;
 }
 
@@ -510,7 +517,6 @@ SpecularLight FindSpecularLight(const Scene& scene, const OcclusionScene& occlud
     return light;
   }
   const SpecularImages images(scene, occluders, surfaces, sources, elements.Size(), options);
-  images.Add(elements.GetPatches(), Part(stage, 0.2, 0.4), light.Irradiance, light.Error);
 
   Tracer tracer(scene, occluders, elements, surfaces, sources, images, options);
   if (tracer.Nothing())
@@ -518,6 +524,7 @@ SpecularLight FindSpecularLight(const Scene& scene, const OcclusionScene& occlud
     return light;
   }
   tracer.CheckMirrors();
+  images.Add(elements.GetPatches(), Part(stage, 0.2, 0.4), light.Irradiance, light.Error);
   const double most = std::max(LeastPaths, PathsAnElement * static_cast<double>(elements.Size()));
   const auto began = std::chrono::steady_clock::now();
   std::vector<double> mean, error;

@@ -6,6 +6,7 @@
 #include "radiometry/irradiance/SkyTable.h"
 #include "radiometry/scene/Reflectance.h"
 #include "tests/core/TestScenes.h"
+#include "tests/core/ThreadRanks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,8 @@ struct World
       this->Geometry.Optics.Shininess[0][c] = shininess;
     }
   }
-  SpecularLight Find(double tolerance = 0.01, std::uint64_t seed = 0, int threads = 0)
+  SpecularLight Find(double tolerance = 0.01, std::uint64_t seed = 0, int threads = 0,
+    const Communicator* ranks = nullptr)
   {
     this->Occluders = std::make_unique<OcclusionScene>(this->Geometry);
     this->Elements = std::make_unique<ElementSet>(this->Geometry, true);
@@ -45,6 +47,7 @@ struct World
     options.RelativeTolerance = tolerance;
     options.Seed = seed;
     options.Threads = threads;
+    options.Ranks = ranks;
     const std::vector<double> known(
       this->Elements->Size() * static_cast<std::size_t>(this->Geometry.Optics.Bands), 0.0);
     return FindSpecularLight(this->Geometry, *this->Occluders, *this->Elements, {},
@@ -309,6 +312,23 @@ TEST(SpecularLight, ALampInAMirrorBallKeepsItsPower)
   EXPECT_NEAR(flux[1] / (8.0 * Pi * 0.3 / 0.7), 1.0, 0.01);
 }
 
+TEST(SpecularLight, ANarrowSpotOnALargeMirrorIsNotLost)
+{
+  // One of gloss, lit between its corners and its middle: all that it sends on arrives above.
+  test::Mesh mesh;
+  mesh.AddGrid({ -500, -500, 1 }, { 0, 1000, 0 }, { 1000, 0, 0 }, 1, 1); // faces down
+  mesh.AddGrid({ -5, -5, 0 }, { 10, 0, 0 }, { 0, 10, 0 }, 1, 1);
+  World w(mesh);
+  w.Set(2, 0.7, 50.0);
+  Light spot = PointAt(w.Geometry, { 1.0, -0.5, 0.9 });
+  spot.Type = LightType::Spot;
+  spot.CosCutoff = std::cos(0.1);
+  w.Geometry.Lights = { spot };
+  const SpecularLight light = w.Find(0.05);
+  const double flux = 5e5 * (light.Irradiance[0] + light.Irradiance[1]);
+  EXPECT_NEAR(flux / (100.0 * 2.0 * Pi * (1.0 - std::cos(0.1)) * 0.7), 1.0, 0.02);
+}
+
 TEST(SpecularLight, SameBytesForAnyNumberOfThreads)
 {
   World w(Beside(1e-4));
@@ -320,6 +340,28 @@ TEST(SpecularLight, SameBytesForAnyNumberOfThreads)
     const SpecularLight other = w.Find(0.5, 3, threads);
     EXPECT_EQ(one.Irradiance, other.Irradiance);
     EXPECT_EQ(one.Error, other.Error);
+  }
+}
+
+TEST(SpecularLight, RanksGiveTheBytesOfOne)
+{
+  const auto make = [](double dent) {
+    World w(Beside(dent));
+    w.Set(Floor + 4, 0.8, dent > 0.0 ? 200.0 : 1e6);
+    w.Geometry.Lights = { PointAt(w.Geometry, { 1.7, 1.2, 1.6 }),
+      PanelAt(w.Geometry, { 1.7, 1.2, 1.6 }, 0.5), test::SkyLight(SkyRadiance::Overcast()) };
+    return w;
+  };
+  for (const double dent : { 0.0, 1e-4 })
+  {
+    World whole = make(dent);
+    const SpecularLight one = whole.Find(0.5);
+    test::ThreadRanks(3).Run([&](const Communicator& ranks) {
+      World w = make(dent);
+      const SpecularLight light = w.Find(0.5, 0, 1, &ranks);
+      EXPECT_EQ(light.Irradiance, one.Irradiance);
+      EXPECT_EQ(light.Error, one.Error);
+    });
   }
 }
 
