@@ -4,6 +4,7 @@
 #include "radiometry/formfactor/ClusterLinks.h"
 #include "radiometry/formfactor/ClusterNetwork.h"
 #include "radiometry/formfactor/ClusterProbes.h"
+#include "radiometry/formfactor/CoveredElements.h"
 #include "radiometry/scene/Collective.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/visibility/Convexity.h"
@@ -44,8 +45,10 @@ struct HierarchicalOperator::Internals
   std::size_t N = 0;
   std::vector<double> Areas;
   ClusterNetwork Network;
+  CoveredElements Covered;
   std::vector<double> Scale;        // d of each element
-  std::vector<double> RowSums;      // of F, corrected
+  std::vector<double> RowSums;      // of F, corrected: before covered elements receive from above
+  std::vector<double> AllRowSums;   // of F
   std::vector<std::uint8_t> Closed; // rows brought to one
   double Loosened = 1.0;            // factor on the tolerance, for the memory limit
   ClosureReport Report;
@@ -64,6 +67,14 @@ struct HierarchicalOperator::Internals
   void Close(std::vector<std::uint8_t>& fixed);
   void CloseRows(std::vector<std::uint8_t> closed);
   double WorstDefect(const std::vector<std::uint8_t>& closed) const;
+  /// What a row that sees nothing but elements lacks to its whole.
+  double Missing(std::size_t i) const { return this->Covered.Uncovered(i) - this->RowSums[i]; }
+  void LetGo(std::size_t i)
+  {
+    const double whole = this->Covered.Uncovered(i);
+    this->Scale[i] =
+      this->RowSums[i] > 0.0 ? std::min(whole, this->Scale[i] * whole / this->RowSums[i]) : whole;
+  }
 };
 
 void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
@@ -121,7 +132,7 @@ std::vector<double> HierarchicalOperator::Internals::ScaleStep(
   };
   for (std::size_t i = 0; i < n; ++i)
   {
-    r[i] = fixed[i] == 1 ? this->Areas[i] * (1.0 - this->RowSums[i]) : 0.0;
+    r[i] = fixed[i] == 1 ? this->Areas[i] * this->Missing(i) : 0.0;
     rz += precondition(i);
     p[i] = z[i];
   }
@@ -174,10 +185,10 @@ void HierarchicalOperator::Internals::Close(std::vector<std::uint8_t>& fixed)
     for (std::size_t i = 0; i < this->N && step > 4 && worst > 0.3 * last; ++i)
     {
       // What does not come nearer: elements that see little but each other, say.
-      if (fixed[i] == 1 && std::abs(1.0 - this->RowSums[i]) > 0.3 * worst)
+      if (fixed[i] == 1 && std::abs(this->Missing(i)) > 0.3 * worst)
       {
         fixed[i] = 2;
-        this->Scale[i] = std::min(1.0, this->Scale[i] / this->RowSums[i]);
+        this->LetGo(i);
         gone = true;
       }
     }
@@ -189,11 +200,11 @@ void HierarchicalOperator::Internals::Close(std::vector<std::uint8_t>& fixed)
     const std::vector<double> x = this->ScaleStep(fixed, 1e-4);
     for (std::size_t i = 0; i < this->N; ++i)
     {
-      const double next = this->Scale[i] * (1.0 + x[i]);
+      const double next = this->Scale[i] * (1.0 + x[i]) / this->Covered.Uncovered(i);
       if (fixed[i] == 1 && !(next > 0.8 && next < 1.25))
       {
         fixed[i] = 2;
-        this->Scale[i] = std::min(1.0, this->Scale[i] / this->RowSums[i]);
+        this->LetGo(i);
         gone = true;
       }
     }
@@ -210,7 +221,7 @@ double HierarchicalOperator::Internals::WorstDefect(const std::vector<std::uint8
   double worst = 0.0;
   for (std::size_t i = 0; i < this->N; ++i)
   {
-    worst = std::max(worst, closed[i] == 1 ? std::abs(1.0 - this->RowSums[i]) : 0.0);
+    worst = std::max(worst, closed[i] == 1 ? std::abs(this->Missing(i)) : 0.0);
   }
   return worst;
 }
@@ -228,7 +239,7 @@ void HierarchicalOperator::Internals::CloseRows(std::vector<std::uint8_t> closed
     bool any = round == 0 && this->Report.ClosedRows;
     for (std::size_t i = 0; i < this->N; ++i)
     {
-      if (!fixed[i] && this->RowSums[i] > 1.0 + 1e-14)
+      if (!fixed[i] && this->Missing(i) < -1e-14)
       {
         fixed[i] = 1;
         any = true;
@@ -249,18 +260,22 @@ void HierarchicalOperator::Internals::CloseRows(std::vector<std::uint8_t> closed
   this->Report.DefectAfter = this->WorstDefect(closed);
   for (std::size_t i = 0; i < this->N; ++i)
   {
-    this->Report.LargestChange =
-      std::max(this->Report.LargestChange, 2.0 * std::abs(this->Scale[i] - 1.0));
-    this->Closed[i] = fixed[i] == 1 && std::abs(this->RowSums[i] - 1.0) < 1e-9;
+    this->Report.LargestChange = std::max(
+      this->Report.LargestChange, 2.0 * std::abs(this->Scale[i] - this->Covered.Uncovered(i)));
+    this->Closed[i] = fixed[i] == 1 && std::abs(1.0 - this->RowSums[i]) < 1e-9;
   }
-  // Faces in one another are seen more than once: the exchange must not make light all the same.
-  const double worst = *std::max_element(this->RowSums.begin(), this->RowSums.end());
-  if (worst > 1.0 + 1e-12)
+  // What is seen more than once all the same: the exchange must not make light.
+  bool above = false;
+  for (std::size_t i = 0; i < this->N; ++i)
   {
-    for (std::size_t i = 0; i < this->N; ++i)
+    if (this->Missing(i) < -1e-12)
     {
-      this->Scale[i] /= std::max(1.0, this->RowSums[i]);
+      this->Scale[i] *= this->Covered.Uncovered(i) / this->RowSums[i];
+      above = true;
     }
+  }
+  if (above)
+  {
     this->SumRows();
   }
 }
@@ -310,12 +325,17 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
       covered = probes->Covered;
       blockers = std::make_unique<PatchBlockers>(scene);
     }
+    m.Covered = CoveredElements(elements.GetPatches(), options.Threads);
     m.Network = ClusterNetwork(ElementTree(elements, covered), options.Threads, options.Ranks);
   });
   // Errors of many links add by squares: what is wanted of rows that receive little is finer.
   const double open = probes ? std::sqrt(std::max(0.04, probes->Share)) : 1.0;
   m.Build(
     occluders, blockers.get(), elements, covered, options, open, limit, Part(stage, 0.05, 0.95));
+  for (std::size_t i = 0; i < m.N; ++i)
+  {
+    m.Scale[i] = m.Covered.Uncovered(i);
+  }
   m.SumRows();
   if (options.Occlusion)
   {
@@ -326,17 +346,20 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
     for (std::size_t i = 0; i < m.N; ++i)
     {
       // A row that misses more than its own error explains sees an opening the probes did not.
-      closed[i] = closed[i] && std::abs(1.0 - m.RowSums[i]) <= 5.0 * (form[i] + sight[i]) + 1e-7;
+      closed[i] = closed[i] && m.Covered.Uncovered(i) > 0.0 &&
+        std::abs(m.Missing(i)) <= 5.0 * (form[i] + sight[i]) + 1e-7;
     }
     m.CloseRows(std::move(closed));
   }
+  m.AllRowSums = m.RowSums;
+  m.Covered.Receive(m.AllRowSums.data(), 1);
 }
 
 HierarchicalOperator::~HierarchicalOperator() = default;
 
 std::size_t HierarchicalOperator::Size() const { return this->Impl->N; }
 const std::vector<double>& HierarchicalOperator::Areas() const { return this->Impl->Areas; }
-double HierarchicalOperator::RowSum(std::size_t i, int) const { return this->Impl->RowSums[i]; }
+double HierarchicalOperator::RowSum(std::size_t i, int) const { return this->Impl->AllRowSums[i]; }
 std::size_t HierarchicalOperator::Links() const
 {
   return static_cast<std::size_t>(this->Impl->Network.Links());
@@ -345,21 +368,32 @@ std::size_t HierarchicalOperator::Links() const
 void HierarchicalOperator::Apply(const double* B, double* out, int bands) const
 {
   this->Impl->Network.Multiply(this->Impl->Scale, B, out, bands);
+  this->Impl->Covered.Receive(out, bands);
 }
 
 void HierarchicalOperator::ApplyError(
   const double* B, double* formFactor, double* visibility, int bands) const
 {
   const Internals& m = *this->Impl;
-  std::vector<double> received(m.N * static_cast<std::size_t>(bands));
+  const auto nb = static_cast<std::size_t>(bands);
+  std::vector<double> received(m.N * nb), sent(B, B + m.N * nb);
+  for (std::size_t k = 0; k < sent.size(); ++k)
+  {
+    sent[k] *= m.Covered.Uncovered(k / nb);
+  }
   m.Network.Multiply(m.Scale, B, received.data(), bands);
-  m.Network.SquareErrors(B, received.data(), m.Closed, formFactor, visibility, bands);
+  m.Network.SquareErrors(sent.data(), received.data(), m.Closed, formFactor, visibility, bands);
   for (std::size_t k = 0; k < received.size(); ++k)
   {
-    // Kernels are kept in single precision.
-    formFactor[k] = Alike * std::sqrt(formFactor[k]) + 6e-8 * std::abs(received[k]);
-    visibility[k] = std::sqrt(visibility[k]);
+    // Kernels are kept in single precision. What is left of a covered element need not see the same
+    // as all of it.
+    const double left = m.Covered.Uncovered(k / nb);
+    formFactor[k] = left * Alike * std::sqrt(formFactor[k]) +
+      (6e-8 + 0.25 * (left > 0.0 ? 1.0 - left : 0.0)) * std::abs(received[k]);
+    visibility[k] = left * std::sqrt(visibility[k]);
   }
+  m.Covered.Receive(formFactor, bands);
+  m.Covered.Receive(visibility, bands);
 }
 
 std::vector<std::int32_t> HierarchicalOperator::Components() const
@@ -369,7 +403,8 @@ std::vector<std::int32_t> HierarchicalOperator::Components() const
 
 std::size_t HierarchicalOperator::MemoryBytes() const
 {
-  return this->Impl->Network.MemoryBytes() + this->Impl->N * (3 * sizeof(double) + 1);
+  return this->Impl->Network.MemoryBytes() + this->Impl->N * (4 * sizeof(double) + 1) +
+    this->Impl->Covered.MemoryBytes();
 }
 std::int64_t HierarchicalOperator::Samples() const
 {
@@ -399,6 +434,8 @@ void HierarchicalOperator::Save(ArchiveWriter& out) const
   m.Network.Save(out);
   out.Put(m.Scale);
   out.Put(m.RowSums);
+  out.Put(m.AllRowSums);
+  m.Covered.Save(out);
   out.Put(m.Closed);
   out.Put(m.Loosened);
   out.Put(m.Report);
@@ -414,11 +451,13 @@ std::unique_ptr<HierarchicalOperator> HierarchicalOperator::Load(
   m.Network.Load(in, threads, ranks);
   in.Get(m.Scale);
   in.Get(m.RowSums);
+  in.Get(m.AllRowSums);
+  m.Covered.Load(in, m.N);
   in.Get(m.Closed);
   m.Loosened = in.Get<double>();
   m.Report = in.Get<ClosureReport>();
   if (m.Network.GetTree().Order().size() != m.N || m.Scale.size() != m.N ||
-    m.RowSums.size() != m.N || m.Closed.size() != m.N)
+    m.RowSums.size() != m.N || m.AllRowSums.size() != m.N || m.Closed.size() != m.N)
   {
     throw std::runtime_error("is damaged: rows are missing");
   }

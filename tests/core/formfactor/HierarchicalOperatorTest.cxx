@@ -334,6 +334,30 @@ TEST(HierarchicalOperator, RanksShareLinks)
   });
 }
 
+TEST(HierarchicalOperator, DuplicatesHalveTheLightOfNeither)
+{
+  test::Mesh single, twice;
+  single.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 4, true);
+  twice.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 4, true);
+  twice.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 4, true);
+  const Built a(single), b(twice);
+  const std::size_t n = a.F.Size();
+  ASSERT_EQ(b.F.Size(), 2 * n);
+  std::vector<double> x(2 * n), wanted(n), got(2 * n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    x[i] = x[n + i] = 1.0 + std::sin(static_cast<double>(i));
+  }
+  a.F.Apply(x.data(), wanted.data(), 1);
+  b.F.Apply(x.data(), got.data(), 1);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    EXPECT_NEAR(got[i], wanted[i], 0.02) << i;
+    EXPECT_EQ(got[n + i], got[i]) << i;
+    EXPECT_NEAR(b.F.RowSum(n + i), 1.0, 1e-12);
+  }
+}
+
 TEST(HierarchicalOperator, HardMeshes)
 {
   test::Mesh duplicates;
