@@ -3,6 +3,7 @@
 
 #include "RadiometricJob.h"
 #include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/InputError.h"
 #include "radiometry/scene/Units.h"
 #include "radiometry/solver/PlannedRadiosity.h"
 
@@ -52,7 +53,7 @@ vtkRadiosityFilter::vtkRadiosityFilter()
 {
 }
 
-vtkRadiosityFilter::~vtkRadiosityFilter() = default;
+vtkRadiosityFilter::~vtkRadiosityFilter() { this->SetOperatorFile(nullptr); }
 
 void vtkRadiosityFilter::ReleaseCache() { this->Cache->Release(); }
 
@@ -89,6 +90,13 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
   options.Threads = job.Threads;
   options.Ranks = job.Ranks;
+  const std::string file = this->OperatorFile ? this->OperatorFile : "";
+  if (this->OperatorFileMode != FILE_UNUSED && file.empty())
+  {
+    throw radiometry::InputError("OperatorFile", -1, "", "the name of a file");
+  }
+  options.LoadOperator = this->OperatorFileMode == LOAD_FILE ? file : "";
+  options.SaveOperator = this->OperatorFileMode == SAVE_FILE ? file : "";
 
   if (!this->CacheOperator || this->CachedFor != job.Ranks)
   {
@@ -123,5 +131,7 @@ void vtkRadiosityFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   static const char* const methods[] = { "Auto", "Dense", "Hierarchical", "MonteCarlo" };
   os << indent << "Method: " << methods[this->Method] << '\n'
+     << indent << "OperatorFile: " << (this->OperatorFile ? this->OperatorFile : "(none)") << '\n'
+     << indent << "OperatorFileMode: " << this->OperatorFileMode << '\n'
      << indent << "CacheOperator: " << this->CacheOperator << '\n';
 }

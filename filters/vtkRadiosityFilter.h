@@ -57,6 +57,27 @@ public:
   vtkGetMacro(CacheOperator, bool);
   vtkBooleanMacro(CacheOperator, bool);
   ///@}
+  /// What is done with the file OperatorFile.
+  enum OperatorFileModes
+  {
+    FILE_UNUSED = 0,
+    SAVE_FILE = 1,
+    LOAD_FILE = 2
+  };
+  ///@{
+  /// File of the operator: elements and the exchange between them. Default: none. A part of its own,
+  /// with the rank at the end of its name, for each of several ranks.
+  vtkSetFilePathMacro(OperatorFile);
+  vtkGetFilePathMacro(OperatorFile);
+  ///@}
+  ///@{
+  /// 0 unused (default); 1 save: each execution writes the operator that it ended with; 2 load:
+  /// executions begin from the file's. A file of other points, cells, sides, transmittances,
+  /// occluders or options, of another version or damaged is an error that says which.
+  vtkSetClampMacro(OperatorFileMode, int, FILE_UNUSED, LOAD_FILE);
+  vtkGetMacro(OperatorFileMode, int);
+  ///@}
+
   /// Frees what was kept.
   void ReleaseCache();
   /// What is kept now [MiB].
@@ -70,6 +91,8 @@ protected:
 
   int Method = METHOD_AUTO;
   bool CacheOperator = true;
+  char* OperatorFile = nullptr;
+  int OperatorFileMode = FILE_UNUSED;
 
 private:
   std::shared_ptr<radiometry::RadiosityCache> Cache;

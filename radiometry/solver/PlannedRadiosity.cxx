@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -115,7 +116,12 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   RadiosityCache own;
   RadiosityCache& kept = cache ? *cache : own;
   const OcclusionScene& occluders = kept.Occluders(scene);
-  RadiositySimulation simulation(scene, options, kept);
+  if (!options.LoadOperator.empty())
+  {
+    kept.Load(options.LoadOperator, scene, options);
+  }
+  auto made = std::make_unique<RadiositySimulation>(scene, options, kept);
+  RadiositySimulation& simulation = *made;
   const double share = points.empty() ? 0.98 : (cells ? 0.8 : 0.6);
   out.Cells = simulation.Run({ monitor, 0.02, share, "radiosity" });
   const std::vector<double>& through = scene.Optics.DiffuseTransmittance;
@@ -139,6 +145,11 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
     out.PointRadiosity[side] = RadiosityAt(scene, points, side, options, out.PointIrradiance);
   }
 
+  made.reset(); // leaves what the next run may begin from
+  if (!options.SaveOperator.empty())
+  {
+    kept.Save(options.SaveOperator, options.Ranks);
+  }
   for (int side = 0; side < 2; ++side)
   {
     Complete(out.Cells.Irradiance[side], "cell");

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "radiometry/formfactor/GeometryKey.h"
+#include "radiometry/scene/Communicator.h"
 #include "radiometry/scene/Scene.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace radiometry
 {
@@ -44,13 +48,23 @@ public:
     const Scene& scene, const RadiosityOptions& options, std::unique_ptr<RadiosityLevel> level);
   const RadiosityLevel* Level() const { return this->Kept.get(); }
 
+  /// Writes what is kept to a file (OperatorFile.h). Fails: InputError{"OperatorFile"} where nothing
+  /// is kept, or it cannot be written.
+  void Save(const std::string& name, const Communicator* ranks) const;
+  /// Keeps what a file holds, for the scene of the last call of Occluders; nothing is read where that
+  /// is kept already. Fails: InputError{"OperatorFile"} where the file is not of this scene and these
+  /// options, or is damaged.
+  void Load(const std::string& name, const Scene& scene, const RadiosityOptions& options);
+
   /// Frees all.
   void Release();
   /// Of the kept operator and elements.
   std::size_t MemoryBytes() const;
 
 private:
-  ContentKey Geometry, Shape;
+  ContentKey Geometry;
+  std::vector<std::pair<std::string, std::string>> Shape; // options: names and values
+  std::string LoadedFrom;
   bool IsConvex = false;
   std::unique_ptr<OcclusionScene> Visibility;
   std::unique_ptr<RadiosityLevel> Kept; // dies before what it sees through

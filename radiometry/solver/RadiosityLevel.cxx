@@ -335,7 +335,7 @@ void RadiosityLevel::Solve(
   }
 
   SolveOptions options;
-  options.Tolerance = std::clamp(1e-3 * context.Options.RelativeTolerance, 1e-9, 1e-5);
+  options.Tolerance = std::clamp(3e-3 * context.Options.RelativeTolerance, 1e-9, 1e-4);
   options.Threads = context.Options.Threads;
   const Values guess = this->HasGuess ? this->Gathered : Values();
   options.Guess = this->HasGuess ? &guess : nullptr;

@@ -11,6 +11,7 @@
 #include "radiometry/solver/RadiositySimulation.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace radiometry
@@ -106,6 +107,7 @@ struct RadiosityLevel
   Values DirectError; // FirstError and what it adds by reflection
   Values FormFactorError, VisibilityError, Discretisation, SolverError;
   RadiosityMethod Method = RadiosityMethod::Auto; // F's
+  std::string Source; // of an F that is not this run's; empty: the run before
   double TargetArea = 0.0;      // that no element exceeds, m^2
   double Tolerance = 0.0;       // of F
   double ExchangeSeconds = 0.0; // that F took

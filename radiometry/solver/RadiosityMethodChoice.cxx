@@ -71,7 +71,11 @@ std::size_t RadiosityRun::MostElements(RadiosityMethod method, std::size_t coars
   {
     return std::max(this->AutomaticLimit(), coarsest);
   }
-  const std::size_t most = this->Context.Memory / 2 / CarloBytes(1, 64);
+  // Room for more rays, or for links to spare.
+  const std::size_t each = method == RadiosityMethod::Hierarchical
+    ? 4 * HierarchicalOperator::LeastBytes(10000) / 10000
+    : 2 * CarloBytes(1, 64);
+  const std::size_t most = this->Context.Memory / each;
   return std::max(coarsest, std::min(most, MostRefined));
 }
 

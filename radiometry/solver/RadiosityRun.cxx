@@ -77,7 +77,9 @@ void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage
     level->Prepare(this->Context);
     this->Context.Tolerance = level->Tolerance;
     this->Result.MethodWhy =
-      std::string(MethodName(level->Method)) + ": kept from the run before, geometry is the same";
+      std::string(MethodName(level->Method)) + ": " +
+      (level->Source.empty() ? "kept from the run before, geometry is the same" : level->Source);
+    level->Source.clear();
     this->Timed("direct light", [&] {
       level->Illuminate(this->Context, this->Left(), nullptr, part(0.0, 0.5, "direct light"));
     });

@@ -114,7 +114,4 @@ struct RadiosityRun
   int Solves = 0; // of the present level
 };
 
-/// The word for a method.
-const char* MethodName(RadiosityMethod method);
-
 } // namespace radiometry

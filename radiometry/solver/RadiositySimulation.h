@@ -28,6 +28,9 @@ enum class RadiosityMethod
   MonteCarlo = 3
 };
 
+/// The word for a method.
+const char* MethodName(RadiosityMethod method);
+
 /// The values of the Refinement property: may the solve use a finer mesh than the one given?
 enum class RefinementMode
 {
@@ -59,6 +62,9 @@ struct RadiosityOptions
   int Threads = 0; // 0: all
   std::uint64_t Seed = 0;
   const Communicator* Ranks = nullptr; // that compute together; null: this process alone
+
+  std::string LoadOperator; // file to take the operator from; empty: none
+  std::string SaveOperator; // file to write it to in the end; empty: none
 
   /// Whether what surfaces send is followed over mirrors or through panes: by rays alone.
   bool FollowsPaths() const { return this->SpecularTransport || this->PathTransmission; }
