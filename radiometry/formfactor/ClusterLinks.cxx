@@ -91,6 +91,16 @@ ClusterRefiner::ClusterRefiner(const ElementTree& tree, const ElementSet& elemen
       ? covered[item] == 1
       : this->Covered[k + 1] && this->Covered[static_cast<std::size_t>(node.Second)];
   }
+  const std::vector<float>* rows = options.RowTolerance;
+  this->RowFactor.assign(rows ? tree.Size() : 0, 1.0f);
+  for (std::size_t k = this->RowFactor.size(); k-- > 0;)
+  {
+    const ElementTree::Node& node = tree[static_cast<std::int32_t>(k)];
+    const auto item = static_cast<std::size_t>(tree.Order()[static_cast<std::size_t>(node.First)]);
+    this->RowFactor[k] = node.Leaf()
+      ? (*rows)[item]
+      : std::min(this->RowFactor[k + 1], this->RowFactor[static_cast<std::size_t>(node.Second)]);
+  }
 }
 
 bool ClusterRefiner::Refine(
@@ -203,6 +213,7 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
     this->LinkElements(open, work, links);
     return;
   }
+  const double row = this->FinestRow(open.Pair);
   const double distance = Length(b.Center - a.Center);
   const double largestLeaf = std::max(a.Leaf() ? a.Radius : 0.0, b.Leaf() ? b.Radius : 0.0);
   if (largestLeaf > 0.4 * distance || a.Radius + b.Radius > FarEnough * distance)
@@ -216,7 +227,7 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   if (partA || partB)
   {
     const double most = std::max(partA ? b.Area : 0.0, partB ? a.Area : 0.0);
-    if (most > this->OwnSightAllowance * distance * distance)
+    if (most > row * this->OwnSightAllowance * distance * distance)
     {
       this->Divide(open, partA && (!partB || b.Area > a.Area), work);
       return;
@@ -231,7 +242,7 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
     // Seen at grazing angles at most: what an element of either may get of the other.
     const double away = distance - a.Radius - b.Radius;
     const double most = std::max(a.Area, b.Area) / (Pi * away * away);
-    if (most * FarEnough > this->FormAllowance)
+    if (most * FarEnough > row * this->FormAllowance)
     {
       this->Divide(open, work);
     }
@@ -239,7 +250,8 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
   }
   const double far = FarShare * estimate.Both;
   if (std::max(inA * std::hypot(estimate.SpreadA, FarShare * estimate.SpreadB, far),
-        inB * std::hypot(estimate.SpreadB, FarShare * estimate.SpreadA, far)) > this->FormAllowance)
+        inB * std::hypot(estimate.SpreadB, FarShare * estimate.SpreadA, far)) >
+    row * this->FormAllowance)
   {
     this->Divide(open, work);
     return;
@@ -253,7 +265,7 @@ void ClusterRefiner::Step(Work& work, std::vector<ClusterLink>& links) const
       inA * sight.SpreadA / this->OwnSightAllowance, inB * sight.SpreadA / this->SightAllowance);
     const double byB = std::max(
       inB * sight.SpreadB / this->OwnSightAllowance, inA * sight.SpreadB / this->SightAllowance);
-    if (std::max(byA, byB) > 1.0)
+    if (std::max(byA, byB) > row)
     {
       open.Mixed = true;
       this->Divide(open, !a.Leaf() && (byA >= byB || b.Leaf()), work);
@@ -359,7 +371,7 @@ ClusterRefiner::View ClusterRefiner::Look(Open& open, double factor, Work& work)
 
 ClusterRefiner::View ClusterRefiner::LookByRays(const Open& open, double factor, Work& work) const
 {
-  const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
+  const double wanted = 0.5 * this->FinestRow(open.Pair) * this->Tolerance / std::sqrt(factor);
   const int rays = static_cast<int>(
     std::clamp(std::ceil(0.125 / (wanted * wanted)), open.Mixed ? 12.0 : 4.0, 64.0));
   double all = 0.0, seen = 0.0;
@@ -454,10 +466,11 @@ void ClusterRefiner::LinkElements(Open& open, Work& work, std::vector<ClusterLin
   const ExchangePatch& i = this->Shapes[static_cast<std::size_t>(a.First)];
   const ExchangePatch& j = this->Shapes[static_cast<std::size_t>(b.First)];
   ++work.Count.Pairs;
+  const double row = this->FinestRow(open.Pair);
   const double d2 = LengthSquared(i.Center - j.Center);
   const double rough = std::min(1.0, std::max(i.Area, j.Area) / (Pi * d2));
   const PairExchangeResult exchange =
-    PairExchange(i, j, std::clamp(0.5 * this->FormAllowance / rough, 1e-9, 3e-2));
+    PairExchange(i, j, std::clamp(0.5 * row * this->FormAllowance / rough, 1e-9, 3e-2));
   if (!(exchange.Value > 0.0))
   {
     return;
@@ -466,7 +479,7 @@ void ClusterRefiner::LinkElements(Open& open, Work& work, std::vector<ClusterLin
   if (this->Blockers)
   {
     const double factor = exchange.Value / std::min(i.Area, j.Area);
-    const double wanted = 0.5 * this->Tolerance / std::sqrt(factor);
+    const double wanted = 0.5 * row * this->Tolerance / std::sqrt(factor);
     const double rays = std::clamp(0.125 / (wanted * wanted), open.Mixed ? 16.0 : 4.0, 64.0);
     const Sight sight = this->Prove(open, work);
     if (sight == Sight::Hidden)

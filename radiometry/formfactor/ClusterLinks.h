@@ -7,6 +7,7 @@
 #include "radiometry/visibility/OcclusionScene.h"
 #include "radiometry/visibility/PatchBlockers.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -111,6 +112,16 @@ private:
   std::vector<ExchangePatch> Shapes;   // in the tree's order
   std::vector<std::int32_t> Triangles; // of the scene, in the tree's order
   std::vector<std::uint8_t> Covered;   // of nodes: holds elements before which something stands
+  /// The finest factor on the tolerance that rows of either node want (ExchangeOptions).
+  double FinestRow(NodePair pair) const
+  {
+    return this->RowFactor.empty()
+      ? 1.0
+      : std::min(this->RowFactor[static_cast<std::size_t>(pair.first)],
+          this->RowFactor[static_cast<std::size_t>(pair.second)]);
+  }
+
+  std::vector<float> RowFactor; // of each node the least of its elements'; empty: 1
   double Tolerance, FormAllowance, SightAllowance, OwnSightAllowance;
   std::uint64_t Seed;
   const PatchBlockers* Blockers;

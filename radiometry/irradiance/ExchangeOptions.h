@@ -18,7 +18,7 @@ struct ExchangeOptions
 {
   double RelativeTolerance = 0.01; // wanted of a row's irradiance
   /// Of each element, a factor of at most 1 on RelativeTolerance for its row; null: 1. What is not
-  /// wanted so fine may be coarser. Operators may leave it out of account.
+  /// wanted so fine may be coarser. Hierarchical alone looks at it.
   const std::vector<float>* RowTolerance = nullptr;
   bool Occlusion = true;
   std::size_t MemoryLimit = 0; // bytes; 0: none

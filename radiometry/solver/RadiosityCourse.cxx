@@ -20,8 +20,8 @@ constexpr int MostRays = 16384;
 constexpr double FirstTolerance = 0.03;
 /// A part of the error counts as limiting above this share of the other.
 constexpr double Limiting = 0.3;
-/// The finest tolerance of links, as a share of that of the values.
-constexpr double FinestLinks = 0.05;
+/// The finest tolerance of links of a row, as a share of that of all.
+constexpr float FinestLinks = 0.02f;
 
 } // namespace
 
@@ -88,6 +88,10 @@ std::unique_ptr<RadiosityLevel> RadiosityRun::Next(const RadiosityAdvance& advan
     return this->Begin(other, coarsest, stage);
   }
   this->Context.Tolerance = advance.Tolerance;
+  if (!advance.Rows.empty())
+  {
+    level->RowTolerance = advance.Rows;
+  }
   if (advance.Divided.empty() && advance.Area == level->TargetArea)
   {
     level->Tolerance = advance.Tolerance;
@@ -119,6 +123,7 @@ void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& sta
 {
   const double begin = this->Result.Convergence.Elapsed();
   ExchangeOptions exchange = this->Context.Exchange();
+  exchange.RowTolerance = level.RowTolerance.empty() ? nullptr : &level.RowTolerance;
   if (level.Method == RadiosityMethod::MonteCarlo)
   {
     const auto n = static_cast<double>(level.Elements.Size());
@@ -212,18 +217,10 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
 bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
   const std::vector<std::uint8_t>& unfinished, double solveSeconds, RadiosityAdvance& advance)
 {
-  const double wanted = this->Context.Options.RelativeTolerance;
   if (level.Method == RadiosityMethod::Dense)
   {
-    advance.Tolerance = std::max(wanted, 0.3 * level.Tolerance);
+    advance.Tolerance = std::max(this->Context.Options.RelativeTolerance, 0.3 * level.Tolerance);
     return advance.Tolerance < level.Tolerance;
-  }
-  if (level.Method == RadiosityMethod::Hierarchical)
-  {
-    // Links are made anew: by as much finer as 95 % of the cells lack.
-    const double step = std::clamp(0.8 / std::max(1.0, this->Result.Excess95), 0.2, 0.7);
-    advance.Tolerance = std::max(FinestLinks * wanted, step * level.Tolerance);
-    return advance.Tolerance < 0.9 * level.Tolerance;
   }
   // By neighbourhoods, for to ask each element by itself would end with those whose rays happen to
   // have missed what is bright.
@@ -239,7 +236,7 @@ bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
     {
       const std::size_t k = e * this->Context.Bands + b;
       limits = limits ||
-        level.VisibilityError[k] >
+        level.VisibilityError[k] + level.FormFactorError[k] >
           Limiting * (std::abs(level.Discretisation[k]) + level.DirectError[k]);
     }
     const auto g = static_cast<std::size_t>(neighbourhood[e]);
@@ -247,11 +244,19 @@ bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
     wanting[g] += unfinished[e] && limits ? level.Elements.GetAreas()[e] : 0.0;
   }
   std::vector<std::uint8_t> marked(n, 0);
-  std::int64_t more = 0;
   for (std::size_t e = 0; e < n; ++e)
   {
     const auto g = static_cast<std::size_t>(neighbourhood[e]);
-    marked[e] = wanting[g] > 0.1 * whole[g] && level.Carlo->Rays(e) < MostRays;
+    marked[e] = wanting[g] > 0.1 * whole[g];
+  }
+  if (!level.Carlo)
+  {
+    return this->FinerRows(level, marked, advance);
+  }
+  std::int64_t more = 0;
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    marked[e] = marked[e] && level.Carlo->Rays(e) < MostRays;
     more += marked[e] ? level.Carlo->Rays(e) : 0;
   }
   if (more == 0)
@@ -276,6 +281,28 @@ bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
   }
   advance.Rays = std::move(marked);
   return true;
+}
+
+/// Links are made anew, finer for the rows that want it.
+bool RadiosityRun::FinerRows(const RadiosityLevel& level, const std::vector<std::uint8_t>& marked,
+  RadiosityAdvance& advance) const
+{
+  const auto step =
+    static_cast<float>(std::clamp(0.8 / std::max(1.0, this->Result.Excess95), 0.25, 0.6));
+  advance.Rows = level.RowTolerance;
+  advance.Rows.resize(marked.size(), 1.0f);
+  bool any = false;
+  for (std::size_t e = 0; e < marked.size(); ++e)
+  {
+    const float finer = std::max(FinestLinks, step * advance.Rows[e]);
+    any = any || (marked[e] && finer < advance.Rows[e]);
+    advance.Rows[e] = marked[e] ? finer : advance.Rows[e];
+  }
+  if (!any)
+  {
+    advance.Rows.clear();
+  }
+  return any;
 }
 
 /// A quarter of the area where all pairs allow it; else those whose unevenness does most harm.

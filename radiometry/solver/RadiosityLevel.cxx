@@ -21,8 +21,6 @@ namespace
 using Values = RadiosityLevel::Values;
 
 constexpr std::size_t EmitterPairs = 4000000;
-constexpr double DiscretisationSafety = 2.0;
-constexpr double IrregularRatio = 2.5;
 
 /// The system solved with one unknown for each group of elements. `guess`: what may arrive at the
 /// elements; null: nothing is known.
@@ -160,6 +158,15 @@ void RadiosityLevel::BeginFrom(const RadiosityLevel& earlier, std::size_t bands)
     }
   }
   this->HasGuess = true;
+  if (!earlier.RowTolerance.empty())
+  {
+    this->RowTolerance.assign(origin.size(), 1.0f);
+    for (std::size_t e = 0; e < origin.size(); ++e)
+    {
+      const std::int32_t from = origin[e].Element;
+      this->RowTolerance[e] = from < 0 ? 1.0f : earlier.RowTolerance[static_cast<std::size_t>(from)];
+    }
+  }
 }
 
 std::size_t RadiosityLevel::MemoryBytes() const
@@ -442,93 +449,6 @@ void RadiosityLevel::PoolSampling(const RadiosityContext& context)
       double& v = this->VisibilityError[e * nb + b];
       const double pooled = square[g * nb + b] / rays[g] / this->Carlo->Rays(e);
       v = std::sqrt(0.5 * (v * v + pooled));
-    }
-  }
-}
-
-/// What constant elements change, from what merging them changes. The differences of gathered light
-/// are taken over the same pairs or rays; what remains of their sampling is taken off, since
-/// VisibilityError has it already.
-void RadiosityLevel::Discretise(const RadiosityContext& context,
-  const DiffuseScattering& scattering, const Values& source, const StageProgress& stage)
-{
-  const std::size_t n = this->Elements.Size();
-  const std::size_t nb = context.Bands;
-  const std::size_t values = n * nb;
-  const int bands = static_cast<int>(nb);
-  // A difference of some per cent needs no more digits than that.
-  const Values none;
-  SolveOptions rough;
-  rough.Tolerance = std::clamp(0.01 * context.Options.RelativeTolerance, 1e-8, 1e-4);
-  rough.InverseBound = &none;
-  rough.Threads = context.Options.Threads;
-
-  if (context.Options.Refinement == RefinementMode::Off && this->Elements.Depth(0) > 0)
-  {
-    // The elements are finer than the cells: the solve without that restriction.
-    rough.Guess = &this->Gathered;
-    const SolveResult free = SolveRadiosity(*this->F, scattering, source, bands, rough, {}, stage);
-    for (std::size_t k = 0; k < values; ++k)
-    {
-      this->Discretisation[k] = 2.0 * (free.Irradiance[k] - this->Gathered[k]);
-    }
-    return;
-  }
-
-  // Merged by fours and by sixteens: what the first changes, and how much less that is than what
-  // the second does, tell what elements of no size would change.
-  std::array<Values, 2> change;
-  Values finer = this->Leaving, guess = this->Gathered;
-  Values arrived(values), noise(values), unused(values);
-  for (int levels = 1; levels <= 2; ++levels)
-  {
-    std::size_t count = 0;
-    std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, levels, count);
-    const GroupedOperator grouped(*this->F, std::move(group), count);
-    const SolveResult coarse = SolveGrouped(
-      grouped, this->F->Areas(), scattering, source, bands, rough, &guess, stage);
-    grouped.Prolong(coarse.Irradiance.data(), guess.data(), bands);
-    Values merged(values);
-    grouped.Prolong(coarse.Radiosity.data(), merged.data(), bands);
-    for (std::size_t k = 0; k < values; ++k)
-    {
-      finer[k] -= merged[k];
-    }
-    this->F->Apply(finer.data(), arrived.data(), bands);
-    this->F->ApplyError(finer.data(), unused.data(), noise.data(), bands);
-    Values& d = change[static_cast<std::size_t>(levels - 1)];
-    d.resize(values);
-    for (std::size_t k = 0; k < values; ++k)
-    {
-      const double square = arrived[k] * arrived[k] - noise[k] * noise[k];
-      d[k] = square > 0.0 ? std::copysign(std::sqrt(square), arrived[k]) : 0.0;
-    }
-    finer = std::move(merged);
-  }
-  for (std::size_t b = 0; b < nb; ++b)
-  {
-    double fine = 0.0, coarse = 0.0, area = 0.0;
-    for (std::size_t e = 0; e < n; ++e)
-    {
-      const double a = this->Elements.GetAreas()[e];
-      fine += a * std::abs(change[0][e * nb + b]);
-      coarse += a * std::abs(change[1][e * nb + b]);
-      area += a;
-    }
-    // Each division shrinks the change by `ratio`, by two (elements that something divides, a wall's
-    // foot across them) to four: the changes still to come sum to 1/(ratio - 1). Where it seems to
-    // shrink faster, elements happen to lie well (a foot on an edge) or the merged ones badly, and
-    // neither lasts; then, and wherever it is small at a place by chance, a quarter of the coarser
-    // change is taken, up to twice the mean of the finer.
-    const double ratio = coarse > 5.0 * fine ? IrregularRatio
-      : fine > 0.0                           ? std::clamp(coarse / fine, 2.0, 4.0)
-                                             : 4.0;
-    const double most = 2.0 * fine / area;
-    for (std::size_t k = b; k < values; k += nb)
-    {
-      const double quarter = std::min(0.25 * std::abs(change[1][k]), most);
-      this->Discretisation[k] = DiscretisationSafety / (ratio - 1.0) *
-        std::copysign(std::max(std::abs(change[0][k]), quarter), change[0][k]);
     }
   }
 }

@@ -110,8 +110,10 @@ struct RadiosityLevel
   std::string Source; // of an F that is not this run's; empty: the run before
   double TargetArea = 0.0;      // that no element exceeds, m^2
   double Tolerance = 0.0;       // of F
+  std::vector<float> RowTolerance; // factor on it of each row; empty: 1
   double ExchangeSeconds = 0.0; // that F took
   int Rays = 0;                 // of each element at first; 0: as always
+  double MetShare = 1.0;        // of the run that made F
   bool HasGuess = false;        // Gathered is worth beginning from
   double LightMean = 0.0; // of what lights give, over the elements
   bool TimedOut = false;  // lights were not all looked at

@@ -17,7 +17,6 @@ constexpr double MiB = 1024.0 * 1024.0;
 constexpr double PairSeconds = 4e-6;
 /// Elements from which links between clusters are preferred to rays.
 constexpr std::size_t FewestLinked = 10000;
-constexpr std::size_t MostRefined = 60000;
 /// Bytes a Monte Carlo operator takes for each element beside its rays, and the fewest rays.
 constexpr std::size_t CarloElement = 48;
 constexpr std::size_t FewestRays = 8;

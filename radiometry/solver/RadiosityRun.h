@@ -15,6 +15,9 @@
 namespace radiometry
 {
 
+/// Elements that refinement goes to by itself; more only come from more cells.
+inline constexpr std::size_t MostRefined = 60000;
+
 /// What a run does next.
 struct RadiosityAdvance
 {
@@ -23,6 +26,7 @@ struct RadiosityAdvance
   double Area = 0.0;                 // that no element of the next level exceeds, m^2
   std::vector<std::uint8_t> Rays;    // elements whose rays are doubled, on the same level
   int Doublings = 1;                 // so often
+  std::vector<float> Rows;           // factors on the tolerance of each row; empty: as before
   std::vector<std::uint8_t> Divided; // elements to divide; empty: by area alone
   bool OtherMethod = false;          // the next level's is one for many elements
 };
@@ -69,6 +73,8 @@ struct RadiosityRun
     return spent;
   }
 
+  /// Whether the mean error is within the tolerance.
+  bool MeanMeets() const;
   /// From the first level, or that of the run before, to the last.
   void Follow(const ElementSet& coarsest, const StageProgress& stage);
 
@@ -98,6 +104,8 @@ struct RadiosityRun
     const std::vector<std::uint8_t>& unfinished, double solveSeconds);
   bool FinerExchange(const RadiosityLevel& level, const std::vector<std::uint8_t>& unfinished,
     double solveSeconds, RadiosityAdvance& advance);
+  bool FinerRows(const RadiosityLevel& level, const std::vector<std::uint8_t>& marked,
+    RadiosityAdvance& advance) const;
   bool FinerElements(const RadiosityLevel& level, const ElementSet& coarsest,
     const std::vector<std::uint8_t>& unfinished, RadiosityAdvance& advance, double& ratio);
 
