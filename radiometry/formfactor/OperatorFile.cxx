@@ -67,6 +67,10 @@ void PutOperator(ArchiveWriter& out, const FormFactorOperator& F, const std::str
   {
     dense->Save(out);
   }
+  else if (const auto* links = dynamic_cast<const HierarchicalOperator*>(&F))
+  {
+    links->Save(out);
+  }
   else if (const auto* carlo = dynamic_cast<const MonteCarloOperator*>(&F))
   {
     carlo->Save(out);
@@ -251,6 +255,10 @@ std::unique_ptr<FormFactorOperator> OperatorFile::ReadOperator(
     if (this->Read.Kind == "Dense")
     {
       return DenseOperator::Load(*this->Archive, options.Threads, options.Ranks);
+    }
+    if (this->Read.Kind == "Hierarchical")
+    {
+      return HierarchicalOperator::Load(*this->Archive, options.Threads, options.Ranks);
     }
     if (this->Read.Kind == "MonteCarlo")
     {

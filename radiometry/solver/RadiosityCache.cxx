@@ -24,7 +24,8 @@ Options ShapeOf(const Scene& scene, const RadiosityOptions& options)
   Options shape{ { "Refinement", refinements[static_cast<int>(options.Refinement)] },
     { "Occlusion", OnOff(options.Occlusion) }, { "BackFaces", OnOff(options.BackFaces) },
     { "Seed", std::to_string(options.Seed) },
-    { "SpecularTransport", OnOff(options.FollowsPaths()) } };
+    { "SpecularTransport", OnOff(options.SpecularTransport) },
+    { "Transmission", OnOff(options.PathTransmission) } };
   if (options.FollowsPaths())
   {
     const ContentKey mirrors = KeyOfMirrors(scene);
@@ -111,9 +112,7 @@ void RadiosityCache::Load(
       std::string("an operator of the method asked for: it is ") + file.Head().Kind + " and not " +
         MethodName(options.Method));
   }
-  RadiosityContext context{ scene, *this->Visibility, options };
-  context.Bands = static_cast<std::size_t>(scene.Optics.Bands);
-  context.Memory = options.MemoryLimit;
+  const RadiosityContext context(scene, *this->Visibility, options);
   auto level = std::make_unique<RadiosityLevel>(context, file.ReadElements());
   level->F = file.ReadOperator(*this->Visibility, level->Elements, context.Exchange());
   level->Carlo = dynamic_cast<MonteCarloOperator*>(level->F.get());

@@ -175,8 +175,8 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
     return advance;
   }
   double ratio = 1.0;
-  const bool finerElements =
-    elements && this->FinerElements(level, coarsest, unfinished, advance, ratio);
+  const bool finerElements = (elements || (!finerExchange && level.Method != RadiosityMethod::Dense)) &&
+    this->FinerElements(level, coarsest, unfinished, advance, ratio);
   if (finerExchange || finerElements)
   {
     if (finerElements && level.Method != RadiosityMethod::Dense)

@@ -3,6 +3,7 @@
 
 #include "radiometry/formfactor/GroupedOperator.h"
 #include "radiometry/solver/BalanceError.h"
+#include "radiometry/geometry/Sampling.h"
 #include "radiometry/solver/ElementOverlap.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
@@ -20,7 +21,9 @@ namespace
 
 using Values = RadiosityLevel::Values;
 
+constexpr std::uint64_t SignDraws = 3;
 constexpr std::size_t EmitterPairs = 4000000;
+constexpr std::size_t DefaultMemory = std::size_t(2) << 30;
 
 /// The system solved with one unknown for each group of elements. `guess`: what may arrive at the
 /// elements; null: nothing is known.
@@ -44,6 +47,23 @@ SolveResult SolveGrouped(const GroupedOperator& grouped, const std::vector<doubl
 }
 
 } // namespace
+
+RadiosityContext::RadiosityContext(
+  const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options)
+  : Geometry(scene)
+  , Occluders(occluders)
+  , Options(options)
+  , Bands(static_cast<std::size_t>(scene.Optics.Bands))
+  , Memory(options.MemoryLimit ? options.MemoryLimit : DefaultMemory)
+{
+  if (options.FollowsPaths() &&
+    (options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo))
+  {
+    const auto paths = std::make_shared<const SpecularSurfaces>(
+      scene, options.SpecularTransport, options.PathTransmission, options.BackFaces);
+    this->Paths = paths->Empty() ? nullptr : paths;
+  }
+}
 
 ExchangeOptions RadiosityContext::Exchange() const
 {
@@ -138,6 +158,7 @@ void RadiosityLevel::Prepare(const RadiosityContext& context)
   this->Leaving.resize(values, 0.0);
   const auto positive = [](double m) { return m > 0.0; };
   this->Emitters = {};
+  this->Mirrored = {};
   if (std::any_of(this->Optics.Exitance.begin(), this->Optics.Exitance.end(), positive))
   {
     this->Emitters =
@@ -342,7 +363,7 @@ void RadiosityLevel::Solve(
   }
 
   SolveOptions options;
-  options.Tolerance = std::clamp(3e-3 * context.Options.RelativeTolerance, 1e-9, 1e-4);
+  options.Tolerance = std::clamp(3e-3 * context.Options.RelativeTolerance, 1e-9, n < 20000 ? 1e-5 : 1e-4);
   options.Threads = context.Options.Threads;
   const Values guess = this->HasGuess ? this->Gathered : Values();
   options.Guess = this->HasGuess ? &guess : nullptr;
@@ -391,6 +412,7 @@ void RadiosityLevel::Solve(
   if (this->Carlo)
   {
     this->PoolSampling(context);
+    this->AddReflectedSampling(context, scattering);
   }
   const double coverage = this->Carlo ? CarloCoverage : DenseCoverage;
   for (double& v : this->VisibilityError)
@@ -450,6 +472,49 @@ void RadiosityLevel::PoolSampling(const RadiosityContext& context)
       const double pooled = square[g * nb + b] / rays[g] / this->Carlo->Rays(e);
       v = std::sqrt(0.5 * (v * v + pooled));
     }
+  }
+}
+
+/// Rays err independently of each other, and what an element misjudges so is reflected on: where few
+/// elements are seen (in a gap) that does not average out. Signs drawn at random for what each leaves
+/// wrong give the mean square of what arrives of it.
+void RadiosityLevel::AddReflectedSampling(
+  const RadiosityContext& context, const DiffuseScattering& scattering)
+{
+  const std::size_t n = this->Elements.Size();
+  const std::size_t nb = context.Bands;
+  Values sent(n * nb), square(n * nb, 0.0), drawn(n * nb), arrived(n * nb);
+  scattering.Apply(this->VisibilityError.data(), sent.data(), nb);
+  for (std::uint64_t draw = 0; draw < SignDraws; ++draw)
+  {
+    for (std::size_t k = 0; k < sent.size(); ++k)
+    {
+      const std::uint64_t key = Hash64(Hash64(context.Options.Seed ^ 0x7369676e73ull, draw), k / nb);
+      drawn[k] = (key & 1) ? sent[k] : -sent[k];
+    }
+    this->F->Apply(drawn.data(), arrived.data(), static_cast<int>(nb));
+    for (std::size_t k = 0; k < arrived.size(); ++k)
+    {
+      square[k] += arrived[k] * arrived[k] / static_cast<double>(SignDraws);
+    }
+  }
+  std::size_t count = 0;
+  const std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, 1, count);
+  Values pooled(count * nb, 0.0), members(count, 0.0);
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    const auto g = static_cast<std::size_t>(group[e]);
+    members[g] += 1.0;
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      pooled[g * nb + b] += square[e * nb + b];
+    }
+  }
+  for (std::size_t k = 0; k < square.size(); ++k)
+  {
+    const auto g = static_cast<std::size_t>(group[k / nb]);
+    double& v = this->VisibilityError[k];
+    v = std::sqrt(v * v + pooled[g * nb + k % nb] / members[g]);
   }
 }
 

@@ -21,12 +21,7 @@ namespace radiometry
 struct RadiosityContext
 {
   RadiosityContext(
-    const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options)
-    : Geometry(scene)
-    , Occluders(occluders)
-    , Options(options)
-  {
-  }
+    const Scene& scene, const OcclusionScene& occluders, const RadiosityOptions& options);
 
   const Scene& Geometry;
   const OcclusionScene& Occluders;
@@ -130,6 +125,7 @@ private:
     double knownMean, double secondsLeft, const StageProgress& stage, Values& light, Values& error);
   void CheckEmission(const RadiosityContext& context) const;
   void PoolSampling(const RadiosityContext& context);
+  void AddReflectedSampling(const RadiosityContext& context, const DiffuseScattering& scattering);
   void Discretise(const RadiosityContext& context, const DiffuseScattering& scattering,
     const Values& source, const StageProgress& stage);
 };

@@ -15,7 +15,6 @@ namespace radiometry
 namespace
 {
 
-constexpr std::size_t DefaultMemory = std::size_t(2) << 30;
 /// Under other lights a kept operator does for so many of the cells, or for not much fewer than in
 /// the run that made it: to make it anew for the rest takes as long as the first time.
 constexpr double KeptShare = 0.85;
@@ -37,16 +36,7 @@ RadiosityRun::RadiosityRun(const Scene& scene, const OcclusionScene& occluders,
 {
   this->Result.Convergence.PartNames = { "Direct", "FormFactor", "Visibility", "Discretisation",
     "Solver" };
-  this->Context.Bands = static_cast<std::size_t>(scene.Optics.Bands);
-  this->Context.Memory = options.MemoryLimit ? options.MemoryLimit : DefaultMemory;
   this->Context.Convex = cache ? cache->Convex() : FindConvexity(scene) != Convexity::General;
-  if (options.FollowsPaths() &&
-    (options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo))
-  {
-    const auto paths = std::make_shared<const SpecularSurfaces>(
-      scene, options.SpecularTransport, options.PathTransmission, options.BackFaces);
-    this->Context.Paths = paths->Empty() ? nullptr : paths;
-  }
 }
 
 RadiosityRun::~RadiosityRun()

@@ -34,7 +34,7 @@ def values(f):
 
 def test_loaded_operator_gives_the_same():
     with tempfile.TemporaryDirectory() as folder:
-        for method in (DENSE, MONTE_CARLO):
+        for method in (DENSE, HIERARCHICAL, MONTE_CARLO):
             name = os.path.join(folder, f"room{method}.operator")
             saved = values(filter_of(room(3.0, 3), name, SAVE, Method=method))
             assert os.path.getsize(name) > 1000

@@ -2,6 +2,7 @@
 #include "radiometry/formfactor/OperatorFile.h"
 
 #include "radiometry/formfactor/DenseOperator.h"
+#include "radiometry/formfactor/HierarchicalOperator.h"
 #include "radiometry/formfactor/MonteCarloOperator.h"
 #include "radiometry/scene/InputError.h"
 #include "tests/core/TestScenes.h"
@@ -45,6 +46,11 @@ struct Room
     if (kind == "Dense")
     {
       return std::make_unique<DenseOperator>(this->World, this->Sight, this->Elements, this->Options);
+    }
+    if (kind == "Hierarchical")
+    {
+      return std::make_unique<HierarchicalOperator>(
+        this->World, this->Sight, this->Elements, this->Options);
     }
     return std::make_unique<MonteCarloOperator>(this->Sight, this->Elements, this->Options, 32);
   }
@@ -102,7 +108,7 @@ std::string Complaint(const std::string& name, const OperatorFileHead& wanted)
 
 TEST(OperatorFile, ComesBackToTheLastBit)
 {
-  for (const std::string kind : { "Dense", "MonteCarlo" })
+  for (const std::string kind : { "Dense", "Hierarchical", "MonteCarlo" })
   {
     Room room;
     const auto F = room.Make(kind);

@@ -85,7 +85,7 @@ void Honesty(
         continue;
       }
       ++all;
-      inside += off <= t.Errors[k];
+      inside += off <= std::hypot(t.Errors[k], r.Errors[k]); // the reference has its own
       ratio.push_back(t.Errors[k] / std::max(off, 1e-300));
     }
   }
