@@ -15,7 +15,8 @@ SAVE, LOAD = 1, 2
 def filter_of(data, name, mode, **properties):
     f = vtkRadiosityFilter()
     f.SetInputDataObject(0, data)
-    f.AddLightsConnection(lamp((1.0, 1.2, 2.0), 3000.0).GetOutputPort())
+    light = lamp((1.0, 1.2, 2.0), 3000.0)
+    f.AddLightsConnection(light.GetOutputPort())
     f.SetRelativeTolerance(0.1)
     f.SetOperatorFile(name)
     f.SetOperatorFileMode(mode)
