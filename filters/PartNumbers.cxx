@@ -16,6 +16,7 @@
 #include <array>
 #include <cstring>
 #include <unordered_map>
+#include <unordered_set>
 
 using Block = SceneAdapter::Block;
 using Blocks = std::vector<Block>;
@@ -30,6 +31,8 @@ struct Item
   long long Id = -1;
   std::int32_t Number = -1;
   bool Copy = false; // of another one
+  bool Inner = false;        // of the faces of solids: between two parts
+  std::uint64_t Corners = 0; // of faces of solids: of the same corners, in any order, the same
 };
 using Items = std::vector<Item>;
 
@@ -79,8 +82,26 @@ long long IdAt(vtkDataArray* ids, vtkIdType i)
   return ids ? static_cast<long long>(ids->GetComponent(i, 0)) : -1;
 }
 
-Items CellsOf(vtkPolyData* data)
+/// The places of the corners in any order.
+std::uint64_t CornersOf(vtkPolyData* data, const vtkIdType* ids, vtkIdType count)
 {
+  std::vector<std::uint64_t> places;
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    places.push_back(ShapeOf(data, ids + k, 1, false));
+  }
+  std::sort(places.begin(), places.end());
+  std::uint64_t hash = static_cast<std::uint64_t>(count);
+  for (const std::uint64_t place : places)
+  {
+    hash = radiometry::Hash64(hash, place);
+  }
+  return hash;
+}
+
+Items CellsOf(const Block& block)
+{
+  vtkPolyData* data = block.Data;
   vtkDataArray* ghosts = data->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName());
   vtkDataArray* ids = data->GetCellData()->GetArray(GatheredCellIds);
   Items items;
@@ -96,10 +117,29 @@ Items CellsOf(vtkPolyData* data)
       iterator->GetCurrentCell(n, corners);
       const auto i = static_cast<vtkIdType>(items.size());
       items.push_back({ ShapeOf(data, corners, n, cells == data->GetPolys()), IdAt(ids, i), -1,
-        IsDuplicate(ghosts, i) });
+        IsDuplicate(ghosts, i), false, block.Skin ? CornersOf(data, corners, n) : 0 });
     }
   }
   return items;
+}
+
+/// The corners of faces of solids that two parts have in common.
+std::unordered_set<std::uint64_t> InnerFaces(const std::vector<Items>& parts)
+{
+  std::unordered_map<std::uint64_t, std::size_t> partOf;
+  std::unordered_set<std::uint64_t> inner;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    for (const Item& item : parts[k])
+    {
+      if (item.Corners != 0 && !item.Copy &&
+        partOf.emplace(item.Corners, k).first->second != k)
+      {
+        inner.insert(item.Corners);
+      }
+    }
+  }
+  return inner;
 }
 
 /// Sensors are points; one is a copy where it is marked so, or all of its vertices are.
@@ -118,7 +158,9 @@ Items SensorsOf(vtkPolyData* data)
     }
     items.push_back(item);
   }
-  const Items cells = CellsOf(data);
+  Block vertices;
+  vertices.Data = data;
+  const Items cells = CellsOf(vertices);
   std::vector<char> owned(items.size(), 0), copied(items.size(), 0);
   vtkIdType c = 0;
   const auto iterator = vtk::TakeSmartPointer(data->GetVerts()->NewIterator());
@@ -151,8 +193,11 @@ std::int32_t NumberLeaf(std::vector<Items>& parts, std::int32_t first)
   {
     for (Item& item : part)
     {
-      (item.Copy ? copies : owners).push_back(&item);
-      ids = ids && item.Id >= 0;
+      if (!item.Inner)
+      {
+        (item.Copy ? copies : owners).push_back(&item);
+        ids = ids && item.Id >= 0;
+      }
     }
   }
   std::vector<Item*> sorted = owners;
@@ -199,7 +244,7 @@ void NumberByShape(std::vector<Items*>& parts)
   {
     for (const Item& item : *part)
     {
-      if (item.Copy && item.Number < 0)
+      if (item.Copy && item.Number < 0 && !item.Inner)
       {
         numbers.emplace(item.Shape, -1);
       }
@@ -209,7 +254,7 @@ void NumberByShape(std::vector<Items*>& parts)
   {
     for (const Item& item : *part)
     {
-      const auto wanted = numbers.empty() || item.Copy ? numbers.end() : numbers.find(item.Shape);
+      const auto wanted = numbers.empty() || item.Copy || item.Inner ? numbers.end() : numbers.find(item.Shape);
       if (wanted != numbers.end() && wanted->second < 0)
       {
         wanted->second = item.Number;
@@ -220,7 +265,7 @@ void NumberByShape(std::vector<Items*>& parts)
   {
     for (Item& item : *part)
     {
-      if (item.Copy && item.Number < 0)
+      if (item.Copy && item.Number < 0 && !item.Inner)
       {
         item.Number = numbers[item.Shape];
       }
@@ -262,7 +307,15 @@ std::size_t PartNumbers::OfCells(Blocks& parts, std::vector<std::vector<std::int
     leaves.emplace_back();
     for (std::size_t k = first; k < end; ++k)
     {
-      leaves.back().push_back(CellsOf(parts[k].Data));
+      leaves.back().push_back(CellsOf(parts[k]));
+    }
+    const auto inner = InnerFaces(leaves.back());
+    for (Items& part : leaves.back())
+    {
+      for (Item& item : part)
+      {
+        item.Inner = item.Corners != 0 && inner.count(item.Corners) != 0;
+      }
     }
     next = NumberLeaf(leaves.back(), next);
   }

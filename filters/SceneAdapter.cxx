@@ -17,12 +17,14 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
+#include "vtkGenericCell.h"
 #include "vtkGeometryFilter.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -34,6 +36,26 @@ using radiometry::Vec3;
 
 namespace
 {
+
+/// Whether any cell has a volume.
+bool HasSolids(vtkDataSet* data)
+{
+  std::array<bool, 256> seen{};
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    const int type = data->GetCellType(c);
+    if (type >= 0 && type < 256 && !seen[static_cast<std::size_t>(type)])
+    {
+      seen[static_cast<std::size_t>(type)] = true;
+      const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
+      if (cell && cell->GetCellDimension() == 3)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
 
 /// The leaves of any data object as polydata.
 void Collect(vtkDataObject* data, const std::string& name, std::int64_t leaf,
@@ -63,6 +85,7 @@ void Collect(vtkDataObject* data, const std::string& name, std::int64_t leaf,
     surface->SetInputData(dataset);
     surface->Update();
     block.Data = surface->GetOutput();
+    block.Skin = HasSolids(dataset);
   }
   else
   {

@@ -33,6 +33,7 @@ public:
     vtkIdType Cells = 0;
     bool Sensors = false; // vertices with normals and no surface
     std::string Name;     // prefix for messages; empty for a lone block
+    bool Skin = false;     // faces of a solid
     std::int64_t Leaf = 0; // which part of the input it is, of several processes' parts alike
     /// Where cells are numbered over several processes: the number of each; -1: of none of the scene.
     std::vector<std::int32_t> Numbers;

@@ -219,8 +219,8 @@ std::vector<char> Pack(const Blocks& blocks, const Blocks& originals)
   {
     const Block& block = blocks[k];
     Append(bytes, &block.Leaf, sizeof(block.Leaf));
-    const char sensors = originals[k].Sensors ? 1 : 0;
-    Append(bytes, &sensors, 1);
+    const char kind[2] = { static_cast<char>(originals[k].Sensors), static_cast<char>(block.Skin) };
+    Append(bytes, kind, 2);
     AppendSized(bytes, block.Name.data(), block.Name.size());
     vtkNew<vtkCharArray> buffer;
     if (!vtkCommunicator::MarshalDataObject(block.Data, buffer))
@@ -246,6 +246,7 @@ std::vector<Travelling> Unpack(std::vector<std::vector<char>>& bytes)
       part.Place = k;
       part.Part.Leaf = parcel.Value<std::int64_t>();
       part.Part.Sensors = parcel.Value<char>() != 0;
+      part.Part.Skin = parcel.Value<char>() != 0;
       const auto name = parcel.Sized();
       part.Part.Name = std::string(name.first, name.second);
       std::tie(part.Data, part.Size) = parcel.Sized();

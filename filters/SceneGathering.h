@@ -22,6 +22,8 @@ constexpr char GatheredCellIds[] = "vtkRadiometryCellIds";
 ///   Ghosts  cells that vtkGhostType marks as duplicates are of no scene: their results are those
 ///           of the cell that they copy, found by its id or its corners, in whatever part it is; 0
 ///           where no process has it. Cells with the id and the corners of another one are such too
+///   Solids  of the faces of solids, two with the same corners in different parts are inner ones, of
+///           no scene: they get 0
 class PartNumbers
 {
 public:

@@ -281,6 +281,44 @@ def check_tables_have_their_rows_once():
             assert np.allclose(mine, one, rtol=1e-9, atol=0.0), (name, mine, one)
 
 
+def check_solids_without_ghosts():
+    """A block of cubes in slices: the faces between them are no surface."""
+    def cubes(first, end):
+        data = vtk.vtkUnstructuredGrid()
+        points = vtk.vtkPoints()
+        for i in range(first, end):
+            for corner in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1),
+                           (1, 1, 1), (0, 1, 1)):
+                points.InsertNextPoint(i + corner[0], corner[1], corner[2])
+        data.SetPoints(points)
+        for i in range(end - first):
+            data.InsertNextCell(12, 8, list(range(8 * i, 8 * i + 8)))
+        clean = vtk.vtkStaticCleanUnstructuredGrid()
+        clean.SetInputData(data)
+        clean.Update()
+        return clean.GetOutput()
+
+    def by_place(f):
+        f.Update()
+        out = f.GetOutputDataObject(0)
+        centers = vtk.vtkCellCenters()
+        centers.SetInputData(out)
+        centers.Update()
+        places = np.round(vtk_to_numpy(centers.GetOutput().GetPoints().GetData()), 3)
+        return dict(zip(map(tuple, places.tolist()), array(out.GetCellData(), "Irradiance")))
+
+    count = 3 * size()
+    light = vtkPointLightSource()
+    light.SetPosition(0.4 * count, -2.0, 3.0)
+    light.SetIntensity(10.0)
+    expected = by_place(irradiance(cubes(0, count), light, alone=True))
+    mine = by_place(irradiance(cubes(3 * rank(), 3 * rank() + 3), light))
+    outside = [place for place in mine if place in expected]
+    assert len(outside) >= 12 and max(expected.values()) > 0.1
+    for place, value in mine.items():
+        assert abs(value - expected.get(place, 0.0)) <= 1e-12, (place, value)
+
+
 def check_view_factors():
     """The same of groups of cells that several ranks have parts of."""
     scene = room(2)
