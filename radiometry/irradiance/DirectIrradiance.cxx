@@ -173,7 +173,8 @@ void RecordRounds(const Communicator& ranks, const Components& components,
       ranks.Sum(sums, 4);
       ranks.Largest(&seconds, 1);
       record.Rows.push_back({ seconds, sums[0] > 0.0 ? sums[1] / sums[0] : 0.0,
-        sums[2] > 0.0 ? sums[1] / sums[2] : 0.0, static_cast<std::int64_t>(sums[3]), stages[k] });
+        sums[2] > 0.0 ? sums[1] / sums[2] : 0.0, static_cast<std::int64_t>(sums[3]), stages[k],
+        {} });
     }
     at += own;
   }
