@@ -26,7 +26,7 @@ void ParallelFor(std::size_t n, int threads, const StageProgress& stage,
 
   Report(stage.Listener, stage.Begin, stage.Name);
   std::size_t done = 0;
-  double round = std::max(1.0, 0.2 * roundSeconds * workers / cost);
+  double round = std::max(workers, 0.2 * roundSeconds * workers / cost);
   while (done < n)
   {
     const std::size_t end = std::min(n, done + static_cast<std::size_t>(round));
@@ -40,9 +40,10 @@ void ParallelFor(std::size_t n, int threads, const StageProgress& stage,
       });
     });
     const double seconds = std::chrono::duration<double>(clock::now() - start).count();
-    // The next round aims at the wanted length, but grows no faster than fourfold.
+    // The next round aims at the wanted length, but grows no faster than fourfold, and keeps all
+    // threads busy where one body takes longer than that.
     const double wanted = round * roundSeconds / std::max(seconds, 1e-6);
-    round = std::max(1.0, std::min(4.0 * round, wanted));
+    round = std::max(workers, std::min(4.0 * round, wanted));
     done = end;
     Report(stage.Listener,
       stage.Begin + (stage.End - stage.Begin) * static_cast<double>(done) / static_cast<double>(n),
