@@ -124,6 +124,10 @@ void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& sta
   const double begin = this->Result.Convergence.Elapsed();
   ExchangeOptions exchange = this->Context.Exchange();
   exchange.RowTolerance = level.RowTolerance.empty() ? nullptr : &level.RowTolerance;
+  if (this->Context.Options.TimeBudget > 0.0)
+  {
+    exchange.SecondsLeft = std::max(0.01, 0.7 * this->Left());
+  }
   if (level.Method == RadiosityMethod::MonteCarlo)
   {
     const auto n = static_cast<double>(level.Elements.Size());
