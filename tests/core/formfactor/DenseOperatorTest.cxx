@@ -41,12 +41,12 @@ double Defect(const DenseOperator& f)
   return worst;
 }
 
-/// A room with a pillar and a screen.
-test::Mesh Furnished()
+/// A room with a pillar, on the floor or above it, and a screen.
+test::Mesh Furnished(double foot = 0.0)
 {
   test::Mesh mesh;
   mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 5, true);
-  mesh.AddBox({ 0.3, 0.3, 0.0 }, { 0.6, 0.7, 0.5 }, 2, false);
+  mesh.AddBox({ 0.3, 0.3, foot }, { 0.6, 0.7, 0.5 }, 2, false);
   mesh.AddGrid({ 0.1, 0.1, 0.6 }, { 0.5, 0, 0 }, { 0, 0.5, 0.1 }, 3, 3);
   return mesh;
 }
@@ -343,6 +343,75 @@ TEST(DenseOperator, MemoryLimitSaysWhatWouldDo)
     EXPECT_LE(enough.F.MemoryBytes(), options.MemoryLimit);
     EXPECT_LT(Defect(enough.F), 1e-14); // single precision conserves all the same
   }
+}
+
+TEST(DenseOperator, SizeAndPlaceDoNotMatter)
+{
+  const Built here(Furnished(0.1));
+  const Values expected = AllOf(here.F);
+  for (const double size : { 1e-6, 1.0, 1e6 })
+  {
+    for (const Vec3& place : { Vec3{}, Vec3{ 5e5, 4e6, 100.0 } })
+    {
+      test::Mesh mesh = Furnished(0.1);
+      for (Vec3& p : mesh.Points)
+      {
+        // Turned by some 37 degrees about z and 53 about x, in whole numbers of fifths.
+        p = { 0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z };
+        p = { p.x, 0.6 * p.y - 0.8 * p.z, 0.8 * p.y + 0.6 * p.z };
+        p = size * (p + place);
+      }
+      const Built there(mesh);
+      const Values values = AllOf(there.F);
+      std::size_t inside = 0;
+      for (std::size_t k = 0; k < values.Out.size(); ++k)
+      {
+        const double error = 2.0 * std::hypot(values.Visibility[k], expected.Visibility[k]) +
+          values.Geometry[k] + expected.Geometry[k];
+        inside += std::abs(values.Out[k] - expected.Out[k]) <= error + 1e-6;
+      }
+      EXPECT_GE(static_cast<double>(inside), 0.95 * static_cast<double>(values.Out.size()))
+        << size << " " << place.x;
+      EXPECT_LT(Furthest(values.Out, expected.Out), 0.2) << size << " " << place.x;
+      EXPECT_EQ(values.Components, expected.Components);
+      EXPECT_LT(values.Closure.DefectAfter, 2e-15);
+    }
+  }
+}
+
+TEST(DenseOperator, DividedPatchesExchangeTheSame)
+{
+  // Reciprocity and additivity: whole cells, and the same cells in quarters, behind a pillar.
+  const Built whole(Furnished()), parts(Furnished(), {}, 0.01);
+  std::size_t cells = 0;
+  const auto cellOf = parts.Elements.CellGroups(cells);
+  ASSERT_GT(parts.F.Size(), 2 * whole.F.Size());
+  std::vector<double> coarse(whole.F.Size()), fine(parts.F.Size());
+  std::vector<double> B(whole.F.Size(), 0.0), divided(parts.F.Size());
+  for (std::size_t i = 0; i < B.size(); ++i)
+  {
+    B[i] = Centroid(whole.Elements.GetPatches()[i].Corners).z > 0.499 ? 1.0 : 0.0;
+  }
+  for (std::size_t e = 0; e < divided.size(); ++e)
+  {
+    divided[e] = B[static_cast<std::size_t>(parts.Elements.GetPatches()[e].Cell)];
+  }
+  whole.F.Apply(B.data(), coarse.data(), 1);
+  parts.F.Apply(divided.data(), fine.data(), 1);
+  std::vector<double> geometry(B.size()), visibility(B.size()), mean(B.size(), 0.0);
+  whole.F.ApplyError(B.data(), geometry.data(), visibility.data(), 1);
+  for (std::size_t e = 0; e < divided.size(); ++e)
+  {
+    mean[static_cast<std::size_t>(parts.Elements.GetPatches()[e].Cell)] +=
+      fine[e] * parts.F.Areas()[e];
+  }
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < B.size(); ++i)
+  {
+    const double off = std::abs(mean[i] / whole.F.Areas()[i] - coarse[i]);
+    inside += off <= 2.5 * visibility[i] + geometry[i] + 1e-3;
+  }
+  EXPECT_GE(static_cast<double>(inside), 0.95 * static_cast<double>(B.size()));
 }
 
 TEST(DenseOperator, DuplicatesHalveTheLightOfNeither)
