@@ -33,7 +33,7 @@ def draw_others(data):
     ax.set_yticklabels([f"{100 * t:g} %" for t in ticks])
     ax.minorticks_off()
     ax.grid(alpha=0.25)
-    ax.legend(fontsize=9)
+    ax.legend(fontsize=9, loc="lower left")
     figure.tight_layout()
     save(figure, "radiosity-error-against-time", "")
 
@@ -173,9 +173,11 @@ def draw_factors(data):
                       color=BLUE, label="pyviewfactor")
         ax.set(xlabel="seconds", title=row["mesh"].replace(", ", "\n"))
         ax.title.set_fontsize(10)
+        ax.set_xlim(1e-3, 100.0)
+        ax.set_xticks([1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0])
         ax.grid(alpha=0.25)
     np.atleast_1d(axes)[0].set_ylabel("RMS relative error of the pairs")
-    np.atleast_1d(axes)[0].legend(fontsize=8)
+    np.atleast_1d(axes)[0].legend(fontsize=8, loc="center left")
     figure.tight_layout()
     save(figure, "view-factors", "")
 

@@ -58,7 +58,7 @@ class Ours:
         return values, spent
 
     def sweep(self, box, seconds):
-        for tolerance in (0.5, 0.2, 0.1, 0.05, 0.03, 0.02, 0.01, 0.005, 0.003, 0.002, 0.001, 5e-4):
+        for tolerance in (0.5, 0.2, 0.1, 0.07, 0.05, 0.04, 0.03, 0.02, 0.01, 0.005, 0.003, 0.002, 0.001):
             values, spent = self.run(box, tolerance)
             if spent < seconds / 20:  # the least of two: a short run feels the machine
                 values, again = self.run(box, tolerance)
