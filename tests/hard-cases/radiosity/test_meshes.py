@@ -54,6 +54,28 @@ def test_duplicated_faces_make_no_light():
                 assert (off <= run.error[copy] + single.error).mean() >= 0.95, (rho, method)
 
 
+def test_two_sided_faces_that_lie_turned_on_others():
+    """A sheet across a box, given once as it is and once turned: front and back trade names."""
+    room = box(n=2, inward=True)
+    sheet = grid((0.5, 0.1, 0.1), (0, 0.8, 0), (0, 0, 0.8), 2, 2)
+    points, cells = joined(room, sheet)
+    n, m = len(room[1]), len(sheet[1])
+    turned = cells + [c[::-1] for c in cells[n:]]
+    two = np.r_[np.zeros(n), np.ones(m)]
+    for method in METHODS.values():
+        options = dict(Method=method, DiffuseReflectance=0.6, RelativeTolerance=0.05)
+        once = Solved(with_cells(polydata(points, cells), TwoSided=two), point(LAMP), **options)
+        twice = Solved(with_cells(polydata(points, turned), TwoSided=np.r_[two, np.ones(m)]),
+                       point(LAMP), **options)
+        (back, back_error), (back2, back2_error) = (
+            run.values(run.output, back=True) for run in (once, twice))
+        for e, error, as_e, as_error in (
+                (twice.e[n:n + m], twice.error[n:n + m], once.e[n:], once.error[n:]),
+                (twice.e[n + m:], twice.error[n + m:], back[n:], back_error[n:]),
+                (back2[n + m:], back2_error[n + m:], once.e[n:], once.error[n:])):
+            assert (np.abs(e - as_e) <= error + as_error).all(), (method, e, as_e)
+
+
 def test_mixed_orientation_receives_on_fronts_only():
     """Every other cell turned: it shows its dark back. Its front sees nothing, and it gets nothing."""
     points, cells = box(n=2, inward=True)
