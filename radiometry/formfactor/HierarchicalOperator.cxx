@@ -5,6 +5,7 @@
 #include "radiometry/formfactor/ClusterNetwork.h"
 #include "radiometry/formfactor/ClusterProbes.h"
 #include "radiometry/formfactor/CoveredElements.h"
+#include "radiometry/irradiance/ClosedSurfaces.h"
 #include "radiometry/scene/Collective.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/visibility/Convexity.h"
@@ -47,12 +48,23 @@ struct HierarchicalOperator::Internals
   ClusterNetwork Network;
   CoveredElements Covered;
   std::vector<double> Scale;        // d of each element
+  std::vector<double> Own;          // of closed rows that could not be scaled to one: what is missing,
+                                    // taken from the element itself; empty: none
   std::vector<double> RowSums;      // of F, corrected: before covered elements receive from above
   std::vector<double> AllRowSums;   // of F
   std::vector<std::uint8_t> Closed; // rows brought to one
   double Loosened = 1.0;            // factor on the tolerance, for the memory limit
   ClosureReport Report;
 
+  void Multiply(const double* B, double* out, int bands) const
+  {
+    this->Network.Multiply(this->Scale, B, out, bands);
+    const auto nb = static_cast<std::size_t>(bands);
+    for (std::size_t k = 0; k < this->Own.size() * nb; ++k)
+    {
+      out[k] += this->Own[k / nb] * B[k];
+    }
+  }
   void SumRows()
   {
     const std::vector<double> one(this->N, 1.0);
@@ -233,6 +245,8 @@ void HierarchicalOperator::Internals::CloseRows(std::vector<std::uint8_t> closed
     this->Report.ClosedRows += c;
   }
   this->Report.DefectBefore = this->WorstDefect(closed);
+  const std::vector<std::uint8_t> closedAtFirst = closed;
+  bool own = false;
   std::vector<std::uint8_t> fixed = closed;
   for (int round = 0; round < 4; ++round)
   {
@@ -262,6 +276,7 @@ void HierarchicalOperator::Internals::CloseRows(std::vector<std::uint8_t> closed
   {
     this->Report.LargestChange = std::max(
       this->Report.LargestChange, 2.0 * std::abs(this->Scale[i] - this->Covered.Uncovered(i)));
+    own = own || (closedAtFirst[i] && fixed[i] == 2);
     this->Closed[i] = fixed[i] == 1 && std::abs(1.0 - this->RowSums[i]) < 1e-9;
   }
   // What is seen more than once all the same: the exchange must not make light.
@@ -277,6 +292,16 @@ void HierarchicalOperator::Internals::CloseRows(std::vector<std::uint8_t> closed
   if (above)
   {
     this->SumRows();
+  }
+  // Closed rows that were let go must not lose light: in a white cavity it would be missed most.
+  this->Own.assign(own ? this->N : 0, 0.0);
+  for (std::size_t i = 0; i < this->Own.size(); ++i)
+  {
+    if (closedAtFirst[i] && fixed[i] == 2)
+    {
+      this->Own[i] = std::max(0.0, this->Missing(i));
+      this->RowSums[i] += this->Own[i];
+    }
   }
 }
 
@@ -340,14 +365,17 @@ HierarchicalOperator::HierarchicalOperator(const Scene& scene, const OcclusionSc
   if (options.Occlusion)
   {
     std::vector<std::uint8_t> closed = probes->Closed(m.Network.GetTree());
+    const ClosedSurfaces shells(scene);
     const std::vector<double> one(m.N, 1.0);
     std::vector<double> form(m.N), sight(m.N);
     this->ApplyError(one.data(), form.data(), sight.data(), 1);
     for (std::size_t i = 0; i < m.N; ++i)
     {
-      // A row that misses more than its own error explains sees an opening the probes did not.
+      // A row that misses more than its own error explains sees an opening the probes did not, unless
+      // it looks into a closed surface.
       closed[i] = closed[i] && m.Covered.Uncovered(i) > 0.0 &&
-        std::abs(m.Missing(i)) <= 5.0 * (form[i] + sight[i]) + 1e-7;
+        (std::abs(m.Missing(i)) <= 5.0 * (form[i] + sight[i]) + 1e-7 ||
+          shells.Encloses(elements.GetPatches()[i]));
     }
     m.CloseRows(std::move(closed));
   }
@@ -367,7 +395,7 @@ std::size_t HierarchicalOperator::Links() const
 
 void HierarchicalOperator::Apply(const double* B, double* out, int bands) const
 {
-  this->Impl->Network.Multiply(this->Impl->Scale, B, out, bands);
+  this->Impl->Multiply(B, out, bands);
   this->Impl->Covered.Receive(out, bands);
 }
 
@@ -381,7 +409,7 @@ void HierarchicalOperator::ApplyError(
   {
     sent[k] *= m.Covered.Uncovered(k / nb);
   }
-  m.Network.Multiply(m.Scale, B, received.data(), bands);
+  m.Multiply(B, received.data(), bands);
   m.Network.SquareErrors(sent.data(), received.data(), m.Closed, formFactor, visibility, bands);
   for (std::size_t k = 0; k < received.size(); ++k)
   {
@@ -389,7 +417,8 @@ void HierarchicalOperator::ApplyError(
     // as all of it.
     const double left = m.Covered.Uncovered(k / nb);
     formFactor[k] = left * Alike * std::sqrt(formFactor[k]) +
-      (6e-8 + 0.25 * (left > 0.0 ? 1.0 - left : 0.0)) * std::abs(received[k]);
+      (6e-8 + 0.25 * (left > 0.0 ? 1.0 - left : 0.0)) * std::abs(received[k]) +
+      (m.Own.empty() ? 0.0 : m.Own[k / nb] * std::abs(B[k] - received[k]));
     visibility[k] = left * std::sqrt(visibility[k]);
   }
   m.Covered.Receive(formFactor, bands);
@@ -433,6 +462,7 @@ void HierarchicalOperator::Save(ArchiveWriter& out) const
   out.Put(m.Areas);
   m.Network.Save(out);
   out.Put(m.Scale);
+  out.Put(m.Own);
   out.Put(m.RowSums);
   out.Put(m.AllRowSums);
   m.Covered.Save(out);
@@ -450,13 +480,14 @@ std::unique_ptr<HierarchicalOperator> HierarchicalOperator::Load(
   m.N = m.Areas.size();
   m.Network.Load(in, threads, ranks);
   in.Get(m.Scale);
+  in.Get(m.Own);
   in.Get(m.RowSums);
   in.Get(m.AllRowSums);
   m.Covered.Load(in, m.N);
   in.Get(m.Closed);
   m.Loosened = in.Get<double>();
   m.Report = in.Get<ClosureReport>();
-  if (m.Network.GetTree().Order().size() != m.N || m.Scale.size() != m.N ||
+  if ((!m.Own.empty() && m.Own.size() != m.N) || m.Network.GetTree().Order().size() != m.N || m.Scale.size() != m.N ||
     m.RowSums.size() != m.N || m.AllRowSums.size() != m.N || m.Closed.size() != m.N)
   {
     throw std::runtime_error("is damaged: rows are missing");

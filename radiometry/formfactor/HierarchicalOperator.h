@@ -19,7 +19,8 @@ namespace radiometry
 ///                j of b (ExchangeSlope): each pair of elements is covered by at most one link
 ///   Reciprocity  exact: a link serves both directions
 ///   Closure      rows that see nothing but elements sum to one to rounding, others not above:
-///                S is scaled by d on both sides, the least that does it
+///                S is scaled by d on both sides, the least that does it; a closed row that
+///                only a large d would mend takes what is missing from its own element
 ///                Duplicated faces: CoveredElements
 ///   Error        squares of the links' errors add (their signs are independent), times what links
 ///                of one direction have in common, found against all pairs; for closed rows what

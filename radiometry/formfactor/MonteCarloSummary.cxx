@@ -279,6 +279,30 @@ void MonteCarloOperator::FindBalance(const StageProgress& stage)
   {
     this->Options.Ranks->Sum(column.data(), column.size());
   }
+  const auto missing = [&](std::size_t k) {
+    return weight[k] - static_cast<double>(column[k]) * Unit * total[k % width];
+  };
+  // Sampling alone makes columns miss by some square root of their hits. Where they miss by more,
+  // faces lie on others and share what is sent to them: there is nothing to balance.
+  std::vector<double> ray(components * width, 0.0), unlikely(components * width, 0.0);
+  std::vector<double> members(components, 0.0);
+  for (std::size_t k = 0; k < n * width; ++k)
+  {
+    auto& greatest = ray[static_cast<std::size_t>(this->Component[k / width]) * width + k % width];
+    greatest = std::max(greatest, weight[k] / std::max(1, this->RaysOf[k / width]));
+  }
+  for (std::size_t k = 0; k < n * width; ++k)
+  {
+    const auto c = static_cast<std::size_t>(this->Component[k / width]);
+    const std::size_t at = c * width + k % width;
+    members[c] += k % width == 0 ? 1.0 : 0.0;
+    const double spread = ray[at] * std::max(weight[k], ray[at]);
+    unlikely[at] += spread > 0.0 ? missing(k) * missing(k) / spread : 0.0;
+  }
+  for (std::size_t at = 0; at < unlikely.size(); ++at)
+  {
+    closed[at / width] &= unlikely[at] <= 2.0 * members[at / width];
+  }
   this->Balance.assign(n * width, 0.0);
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -292,7 +316,7 @@ void MonteCarloOperator::FindBalance(const StageProgress& stage)
     {
       const std::size_t k = i * width + b;
       this->ComponentArea[c * width + b] += weight[k];
-      this->Balance[k] = weight[k] - static_cast<double>(column[k]) * Unit * total[b];
+      this->Balance[k] = missing(k);
       this->Report.ReciprocityDefect = std::max(this->Report.ReciprocityDefect,
         weight[k] > 0.0 ? std::abs(this->Balance[k]) / weight[k] : 0.0);
     }

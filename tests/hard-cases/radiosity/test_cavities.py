@@ -44,6 +44,17 @@ def test_a_lamp_inside_lights_the_mean_by_energy_alone():
                 assert (run.error[:, 0] > 0).all() or rho == 0.0, (name, method, rho)
 
 
+def test_refined_cavities_lose_nothing():
+    """Elements in the corners of a fine mesh see their neighbours at every distance: none may lose."""
+    points, cells = box(n=2, inward=True)
+    areas = areas_of(points, cells)
+    for method in METHODS.values():
+        for rho in (0.9999, 0.999999):
+            run = Solved(polydata(points, cells), point((0.4, 0.45, 0.6)), Method=method,
+                         DiffuseReflectance=rho, RelativeTolerance=0.02)
+            close(run.mean(areas), FLUX / 6.0 / (1.0 - rho), 1e-6)
+
+
 def test_uniform_emission_has_no_shape():
     for shape in SHAPES.values():
         points, cells = shape()
