@@ -61,7 +61,8 @@ public:
     FIELD_ON = 1,
     FIELD_NORMALS = 2,
     FIELD_REFLECTANCE = 3,
-    FIELD_MATERIALS = 4
+    FIELD_MATERIALS = 4,
+    FIELD_FALSE_COLOR = 5
   };
 
   ///@{
@@ -182,6 +183,8 @@ public:
    * SpecularReflectance, Shininess, EmittedExitance/pi as radiance, Back... of each, TwoSided), of
    * cells or of a whole block as field data; where an array is missing, the actor's property.
    * With specular reflectance Gouraud becomes Phong: the exponent belongs to the cell.
+   * FalseColor: the scalars through their colour map, without light: the colours are for the display
+   * as they are (GetSceneLinear() is false), so that the picture shows what the legend shows.
    */
   void SetFieldMode(int mode);
   vtkGetMacro(FieldMode, int);
@@ -190,6 +193,7 @@ public:
   void SetFieldModeToNormals() { this->SetFieldMode(FIELD_NORMALS); }
   void SetFieldModeToReflectance() { this->SetFieldMode(FIELD_REFLECTANCE); }
   void SetFieldModeToMaterials() { this->SetFieldMode(FIELD_MATERIALS); }
+  void SetFieldModeToFalseColor() { this->SetFieldMode(FIELD_FALSE_COLOR); }
   void SetFieldArrayName(const char* name);
   const char* GetFieldArrayName() { return this->FieldArrayName.c_str(); }
   ///@}
@@ -221,6 +225,12 @@ public:
   const char* GetFragmentShaderText() { return this->FragmentShaderText.c_str(); }
   const char* GetShaderFeatures() { return this->ShaderFeatureText.c_str(); }
   ///@}
+
+  /**
+   * Whether this mapper's colours are light (scene-linear), which a display transform has to encode.
+   * False: they are a display's own (a colour map), which no transform may touch.
+   */
+  bool GetSceneLinear() const { return this->FieldMode != FIELD_FALSE_COLOR; }
 
   /**
    * How often shaders were generated since the mapper was made.

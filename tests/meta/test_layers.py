@@ -38,8 +38,10 @@ def judge(path, name):
                 return None
             if own == "shading":
                 return None if other == "scene" else "shading may include scene only"
-            if other == "shading":
-                return "shading is a leaf: nothing in the core may include it"
+            if own == "imaging":
+                return None if other in ("scene", "shading") else "imaging may include scene and shading"
+            if other in ("shading", "imaging"):
+                return f"{other} is a leaf: nothing that simulates may include it"
             if other not in CORE or own not in CORE:
                 return f"unknown stage {other if other not in CORE else own}"
             if CORE.index(other) > CORE.index(own):
@@ -64,9 +66,9 @@ def judge(path, name):
         if name.startswith("filters/"):
             return "rendering/ never includes filters/"
         if name.startswith("radiometry/") and not name.startswith(
-            ("radiometry/scene/", "radiometry/shading/")
+            ("radiometry/scene/", "radiometry/shading/", "radiometry/imaging/")
         ):
-            return "rendering/ uses the core's scene and shading headers only"
+            return "rendering/ uses the core's scene, shading and imaging headers only"
         if name.startswith("io/") and not name.startswith("io/OpenEXR"):
             return "rendering/ uses of io/ the image files only"
         return None
