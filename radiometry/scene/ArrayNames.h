@@ -54,6 +54,9 @@ inline constexpr char LuminousExposure[] = "LuminousExposure"; // its photometri
 inline constexpr char BackSuffix[] = "Back";   // IrradianceBack, ...
 inline constexpr char ErrorSuffix[] = "Error"; // IrradianceError, ...
 
+// Field data beside spectral arrays: the centres of their N bands [nm]
+inline constexpr char Wavelengths[] = "Wavelengths";
+
 // The cell of the input that a piece of the output was cut from
 inline constexpr char OriginalCellIds[] = "OriginalCellIds";
 
