@@ -229,9 +229,11 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
     vtkWarningWithObjectMacro(mapper, << "no point or cell array \"" << mapper->FieldArrayName
                                       << "\": these blocks are drawn black");
   }
+  this->PrepareFalseColor();
   this->Superclass::BuildBufferObjects(ren, act);
   this->BuildCellBuffers(ren, act);
   this->BuildMaterials(ren, act);
+  this->BuildFalseColor(ren, act);
 }
 
 void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* act,
@@ -249,6 +251,10 @@ void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* ac
   if (this->FieldOfPoints)
   {
     this->AppendField(block, after > before);
+  }
+  if (this->ScalarsOfPoints)
+  {
+    this->AppendScalars(block, after > before);
   }
   vtkCellArray* prims[4] = { block->GetVerts(), block->GetLines(), block->GetPolys(),
     block->GetStrips() };

@@ -45,7 +45,9 @@ bool IsBlack(const double* color)
 bool NeedsLight(vtkPhongGouraudMapper* mapper)
 {
   const int mode = mapper->GetFieldMode();
-  return mode != vtkPhongGouraudMapper::FIELD_ON && mode != vtkPhongGouraudMapper::FIELD_NORMALS;
+  return mode != vtkPhongGouraudMapper::FIELD_ON &&
+    mode != vtkPhongGouraudMapper::FIELD_NORMALS &&
+    mode != vtkPhongGouraudMapper::FIELD_FALSE_COLOR;
 }
 
 } // namespace
@@ -129,6 +131,13 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON, "ShowField");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE, "FieldIsReflectance");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_NORMALS, "ShowNormals");
+  if (mapper->FieldMode == vtkPhongGouraudMapper::FIELD_FALSE_COLOR)
+  {
+    needs = { "FalseColor" };
+    need(this->DrawingEdges(ren, act), "Edges");
+    need(this->ScalarsOfPoints, this->PointColors ? "ColorsOfPoints" : "ScalarsOfPoints");
+    need(this->CellColorBuffer.Texture != nullptr, "ColorsOfCells");
+  }
   if (Has(needs, "ShowField") || Has(needs, "FieldIsReflectance"))
   {
     needs.insert("Field");
@@ -252,6 +261,12 @@ void vtkPhongGouraudHelper::SetLightingShaderParameters(
   bind("radiometryField", this->FieldBuffer);
   bind("radiometryMaterials", this->MaterialBuffer);
   bind("radiometryMaterialOfCell", this->MaterialOfCellBuffer);
+  bind("radiometryColorSteps", this->StepBuffer);
+  bind("radiometryCellColors", this->CellColorBuffer);
+  if (program->IsUniformUsed("numberOfColorSteps"))
+  {
+    program->SetUniformi("numberOfColorSteps", static_cast<int>(this->Steps.GetNumberOfSteps()));
+  }
   const char* ranges[] = { "directionalRange", "pointRange", "spotRange" };
   for (int kind = 0; kind < 3; ++kind)
   {

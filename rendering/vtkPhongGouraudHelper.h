@@ -9,6 +9,7 @@
 #ifndef vtkPhongGouraudHelper_h
 #define vtkPhongGouraudHelper_h
 
+#include "ColorSteps.h"
 #include "LightCollector.h"
 #include "ShaderTemplate.h"
 
@@ -76,10 +77,10 @@ private:
   /// The blocks in the order in which they are drawn.
   std::vector<vtkradiometry::DrawnBlock*> Blocks() const;
 
-  std::array<FloatBuffer*, 5> Buffers()
+  std::array<FloatBuffer*, 7> Buffers()
   {
     return { { &this->LightBuffer, &this->FrameBuffer, &this->FieldBuffer, &this->MaterialBuffer,
-      &this->MaterialOfCellBuffer } };
+      &this->MaterialOfCellBuffer, &this->StepBuffer, &this->CellColorBuffer } };
   }
 
   vtkPhongGouraudMapper* Mapper() const;
@@ -102,6 +103,18 @@ private:
   };
   BlockField FindField(vtkPolyData* block);
   void AppendPointField(const char* attribute, vtkDataArray* field, vtkIdType points);
+  /// False colour: what a block's colours are mapped from, and through what.
+  struct BlockScalars
+  {
+    vtkAbstractArray* Array = nullptr;
+    vtkScalarsToColors* Map = nullptr;
+    bool OfCells = false;
+    bool AreColors = false; // nothing between two points can be mapped: their colours are mixed
+  };
+  BlockScalars FindScalars(vtkPolyData* block);
+  void PrepareFalseColor();
+  void AppendScalars(vtkPolyData* block, bool newPoints);
+  void BuildFalseColor(vtkRenderer* ren, vtkActor* act);
 
   vtkradiometry::PackedLights Lights;
   vtkradiometry::ShaderFeatures Features; // of the primitive that is being drawn
@@ -116,11 +129,23 @@ private:
   // Of blocks in whose points others may share: the field they were drawn with.
   std::map<vtkDataArray*, vtkDataArray*> FieldOfShared;
 
+  // False colour
+  bool ScalarsOfCells = false;
+  bool ScalarsOfPoints = false;
+  bool ScalarsMissing = false; // of some block
+  bool PointColors = false;    // points have colours, not scalars
+  vtkradiometry::ColorSteps Steps;
+  const vtkScalarsToColors* StepsMap = nullptr; // what Steps was built of, and when
+  vtkTimeStamp StepsTime;
+  std::map<vtkDataArray*, vtkAbstractArray*> ScalarsOfShared;
+
   FloatBuffer LightBuffer;
   FloatBuffer FrameBuffer;
   FloatBuffer FieldBuffer;
   FloatBuffer MaterialBuffer;       // the materials
   FloatBuffer MaterialOfCellBuffer; // which one a triangle has
+  FloatBuffer StepBuffer;           // of the colour map
+  FloatBuffer CellColorBuffer;      // false colours of triangles
 
   vtkPhongGouraudHelper(const vtkPhongGouraudHelper&) = delete;
   void operator=(const vtkPhongGouraudHelper&) = delete;

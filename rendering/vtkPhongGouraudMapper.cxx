@@ -55,7 +55,7 @@ void vtkPhongGouraudMapper::SetShading(int shading)
 
 void vtkPhongGouraudMapper::SetFieldMode(int mode)
 {
-  mode = std::clamp<int>(mode, FIELD_OFF, FIELD_MATERIALS);
+  mode = std::clamp<int>(mode, FIELD_OFF, FIELD_FALSE_COLOR);
   if (this->FieldMode != mode)
   {
     this->FieldMode = mode;
@@ -105,7 +105,7 @@ void vtkPhongGouraudMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   const char* shadings[] = { "Flat", "Gouraud", "Phong", "Auto" };
   const char* models[] = { "BlinnPhong", "Phong", "Physical" };
-  const char* modes[] = { "Off", "On", "Normals", "Reflectance", "Materials" };
+  const char* modes[] = { "Off", "On", "Normals", "Reflectance", "Materials", "FalseColor" };
   os << indent << "Shading: " << shadings[this->Shading] << " (last frame "
      << shadings[this->ShadingUsed] << ")\n";
   os << indent << "ReflectionModel: " << models[this->ReflectionModel] << "\n";

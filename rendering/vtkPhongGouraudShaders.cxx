@@ -141,7 +141,12 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
     this->Superclass::ReplaceShaderLight(shaders, ren, act);
     return;
   }
-  const ShaderFeatures& features = this->Features;
+  ShaderFeatures features = this->Features;
+  if (shaders[vtkShader::Fragment]->GetSource().find("uniform bool OverridesColor") !=
+    std::string::npos)
+  {
+    features.insert("BlockColors"); // a block's own colour goes before its scalars
+  }
   // The functions go where the lights are summed, and only there.
   ShaderFeatures vertex = features;
   ShaderFeatures fragment = features;

@@ -65,6 +65,26 @@
 //@if ShowField
   gl_FragData[0] = vec4(field, opacity);
 //@end
+//@if FalseColor
+//@if ScalarsOfPoints
+  vec4 falseColor = colorOfScalar(scalarVSOutput);
+//@else
+//@if ColorsOfPoints
+  vec4 falseColor = colorVSOutput;
+//@else
+  vec4 falseColor = vec4(diffuseColorUniform, 1.0);
+//@end
+//@end
+//@if ColorsOfCells
+  vec4 cellColor = texelFetch(radiometryCellColors, gl_PrimitiveID + PrimitiveIDOffset);
+  falseColor = cellColor.a >= 0.0 ? cellColor : falseColor;
+  falseColor = cellColor.a < -1.5 ? vec4(diffuseColorUniform, 1.0) : falseColor;
+//@end
+//@if BlockColors
+  falseColor = OverridesColor ? vec4(diffuseColorUniform, 1.0) : falseColor;
+//@end
+  gl_FragData[0] = vec4(falseColor.rgb, falseColor.a * opacityUniform);
+//@end
 //@if ShowNormals
   gl_FragData[0] = vec4(viewToWorld * N, 1.0);
 //@end

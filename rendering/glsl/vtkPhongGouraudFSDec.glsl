@@ -20,6 +20,46 @@ in vec3 fieldVSOutput;
 in vec3 fieldBackVSOutput;
 //@end
 //@end
+//@if FalseColor
+//@if ColorsOfCells
+// For each triangle its colour; alpha -1: that of its points, -2: the property's.
+uniform samplerBuffer radiometryCellColors;
+//@end
+//@if ColorsOfPoints
+in vec4 colorVSOutput;
+//@end
+//@if ScalarsOfPoints
+// ColorSteps.h: of NaN, then of each step where it begins, its colour, its opacity.
+uniform samplerBuffer radiometryColorSteps;
+uniform int numberOfColorSteps;
+in vec2 scalarVSOutput;
+
+vec4 colorOfScalar(vec2 scalar)
+{
+  int step = 0;
+  if (scalar.y <= 0.0)
+  {
+    int end = numberOfColorSteps + 1;
+    step = 1;
+    while (end - step > 1)
+    {
+      int middle = (step + end) / 2;
+      if (texelFetch(radiometryColorSteps, middle).x <= scalar.x)
+      {
+        step = middle;
+      }
+      else
+      {
+        end = middle;
+      }
+    }
+  }
+  vec4 texel = texelFetch(radiometryColorSteps, step);
+  int color = int(texel.y);
+  return vec4(color & 255, (color >> 8) & 255, color >> 16, 255.0 * texel.z) / 255.0;
+}
+//@end
+//@end
 //@if Materials
 // For each triangle the number of its material; for each material, front then back: diffuse
 // reflectance and exponent, specular reflectance, emitted radiance.

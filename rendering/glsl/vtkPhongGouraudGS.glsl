@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // //VTK::Light::Impl of that geometry shader, once for each vertex i.
+//@if ColorsOfPoints
+  colorGSOutput = colorVSOutput[i];
+//@end
+//@if ScalarsOfPoints
+  scalarGSOutput = scalarVSOutput[i];
+//@end
 //@if FieldOfPoints
   fieldGSOutput = fieldVSOutput[i];
 //@if FieldOfBack

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declarations of the geometry shader that VTK inserts for edges: what it must hand through.
+//@if ColorsOfPoints
+in vec4 colorVSOutput[];
+out vec4 colorGSOutput;
+//@end
+//@if ScalarsOfPoints
+in vec2 scalarVSOutput[];
+out vec2 scalarGSOutput;
+//@end
 //@if FieldOfPoints
 in vec3 fieldVSOutput[];
 out vec3 fieldGSOutput;

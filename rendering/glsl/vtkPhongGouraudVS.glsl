@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // //VTK::Light::Impl of the vertex shader: Gouraud's sums over the lights at each vertex.
+//@if ColorsOfPoints
+  colorVSOutput = radiometryColorMC;
+//@end
+//@if ScalarsOfPoints
+  scalarVSOutput = radiometryScalarMC;
+//@end
 //@if FieldOfPoints
   fieldVSOutput = radiometryFieldMC;
 //@if FieldOfBack

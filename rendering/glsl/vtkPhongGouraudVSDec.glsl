@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declarations of the vertex shader (//VTK::Light::Dec).
+//@if ColorsOfPoints
+in vec4 radiometryColorMC;
+out vec4 colorVSOutput;
+//@end
+//@if ScalarsOfPoints
+in vec2 radiometryScalarMC;
+out vec2 scalarVSOutput;
+//@end
 //@if FieldOfPoints
 in vec3 radiometryFieldMC;
 out vec3 fieldVSOutput;
