@@ -2,7 +2,6 @@
 #include "radiometry/scene/Reflectance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace radiometry
@@ -12,44 +11,66 @@ namespace
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// Nodes and weights of the 8-point Gauss-Legendre rule on [-1, 1], positive half.
-constexpr std::array<double, 4> Node{ { 0.1834346424956498, 0.5255324099163290,
-  0.7966664774136267, 0.9602898564975363 } };
-constexpr std::array<double, 4> Weight{ { 0.3626837833783620, 0.3137066458778873,
-  0.2223810344533745, 0.1012285362903763 } };
-
-template <typename F>
-double Integrate(double a, double b, int pieces, const F& f)
+/// The continued fraction of the incomplete beta function, by Lentz's method (Abramowitz and
+/// Stegun 26.5.8). Converges fast for x < (a + 1)/(a + b + 2).
+double BetaFraction(double a, double b, double x)
 {
-  double sum = 0.0;
-  const double half = 0.5 * (b - a) / pieces;
-  for (int p = 0; p < pieces; ++p)
+  constexpr double tiny = 1e-300;
+  const auto nonZero = [](double v) { return std::abs(v) < tiny ? tiny : v; };
+  double c = 1.0;
+  double d = 1.0 / nonZero(1.0 - (a + b) * x / (a + 1.0));
+  double fraction = d;
+  for (int m = 1; m < 100000; ++m)
   {
-    const double middle = a + (2 * p + 1) * half;
-    for (std::size_t i = 0; i < Node.size(); ++i)
+    const double even = m * (b - m) * x / ((a + 2 * m - 1.0) * (a + 2 * m));
+    d = 1.0 / nonZero(1.0 + even * d);
+    c = nonZero(1.0 + even / c);
+    fraction *= d * c;
+    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1.0));
+    d = 1.0 / nonZero(1.0 + odd * d);
+    c = nonZero(1.0 + odd / c);
+    const double step = d * c;
+    fraction *= step;
+    if (std::abs(step - 1.0) < 1e-16)
     {
-      sum += Weight[i] * half * (f(middle - half * Node[i]) + f(middle + half * Node[i]));
+      break;
     }
   }
-  return sum;
+  return fraction;
 }
 
-/// Integral over psi in [0, 2 pi] of max(0, A + B cos psi), B >= 0.
-double ClampedCosineIntegral(double A, double B)
+/// I_x(1/2, b), regularised, for x = c^2, 1 - x = s^2.
+double IncompleteBetaOfHalf(double b, double c, double s)
 {
-  if (A >= B)
-  {
-    return 2.0 * Pi * A;
-  }
-  if (A <= -B)
+  if (c == 0.0)
   {
     return 0.0;
   }
-  const double psi = std::acos(-A / B);
-  return 2.0 * (A * psi + std::sqrt((B - A) * (B + A)));
+  if (s == 0.0)
+  {
+    return 1.0;
+  }
+  const double x = c * c;
+  const double front = c * std::exp(b * std::log1p(-x)) / BetaWithHalf(b);
+  return x < 1.5 / (b + 2.5) ? front / 0.5 * BetaFraction(0.5, b, x)
+                             : 1.0 - front / b * BetaFraction(b, 0.5, s * s);
 }
 
 } // namespace
+
+double BetaWithHalf(double p)
+{
+  double product = 1.0;
+  for (; p < 32.0; p += 1.0)
+  {
+    product *= (p + 0.5) / p;
+  }
+  const double x = 1.0 / p;
+  const double series =
+    1.0 + x * (1.0 / 8 + x * (1.0 / 128 + x * (-5.0 / 1024 + x * (-21.0 / 32768 +
+    x * (399.0 / 262144 + x * (869.0 / 4194304 - x * (39325.0 / 33554432)))))));
+  return product * std::sqrt(Pi * x) * series;
+}
 
 double LambertianBrdf(double rho)
 {
@@ -80,23 +101,10 @@ double PhongLobeReflectance(double rho, double shininess, double cosTheta)
   {
     return rho; // n = 0 is a constant over the hemisphere: rho/pi
   }
-  // Inside alpha0 = pi/2 - theta the horizon cuts nothing and the integral over psi is
-  // 2 pi cos(alpha) cos(theta): the integral over alpha is elementary.
-  const double whole = 2.0 * Pi * c * -std::expm1((n + 2.0) * std::log(s)) / (n + 2.0);
-  // Beyond, the lobe is cut; it is followed until it has fallen by exp(-45). alpha = alpha0 + w u^2
-  // takes the power 3/2 out of the beginning.
-  const double alpha0 = std::atan2(c, s);
-  const double fall = std::exp(-45.0 / n);
-  const double sinSquared = c * c - s * s * std::expm1(-90.0 / n);
-  const double width = std::atan2(std::sqrt(sinSquared), s * fall) - alpha0;
-  const auto cut = [&](double u) {
-    const double alpha = alpha0 + width * u * u;
-    const double sine = std::sin(alpha);
-    const double power = std::exp(0.5 * n * std::log1p(-sine * sine));
-    return 2.0 * width * u * power * sine * ClampedCosineIntegral(std::cos(alpha) * c, sine * s);
-  };
-  const double share = (n + 2.0) / (2.0 * Pi) * (whole + Integrate(0.0, 1.0, 32, cut));
-  return rho * std::min(share, 1.0);
+  const double inside = 0.5 * c * (1.0 + IncompleteBetaOfHalf(0.5 * n + 1.0, c, s));
+  const double cut = (n + 2.0) / (2.0 * Pi * (n + 1.0)) * BetaWithHalf(0.5 * n + 1.5) *
+    std::exp((0.5 * n + 1.0) * std::log1p(-c * c));
+  return rho * std::min(inside + cut, 1.0);
 }
 
 } // namespace radiometry

@@ -19,11 +19,19 @@ double PhongLobeBrdf(
 
 /// Directional-hemispherical reflectance of that lobe for light that comes at angle theta from the
 /// normal (cosTheta in [0, 1]): the share of its power that leaves again, into all directions.
-///   Model   rho (n + 2)/(2 pi) times the integral of cos^n(alpha) cos(theta_out) over the
-///           hemisphere; about the lobe's axis the inner integral has a closed form, the outer is
-///           done by Gauss-Legendre quadrature to about 1e-10
-///   Value   rho at normal incidence, exactly; never more than rho
+///   Model   rho a_n(theta), for n > 0
+///             a_n = cos(theta) (1 + I_{cos^2 theta}(1/2, n/2 + 1))/2
+///                 + (n + 2)/(2 pi (n + 1)) B(n/2 + 3/2, 1/2) sin^(n + 2)(theta),
+///           I the regularised incomplete beta function. About the axis square to the normal and to
+///           the lobe's own the integral of cos^n(alpha) cos(theta_out) falls into two factors:
+///           powers of one cosine (docs/physics/shading.md)
+///   Value   rho at normal incidence, exactly; falls toward grazing; to some 1e-13
 ///   Source  the closed form at theta = 0: Lafortune and Willems 1994, eq. 5
 double PhongLobeReflectance(double rho, double shininess, double cosTheta);
+
+/// The beta function B(p, 1/2) = sqrt(pi) Gamma(p)/Gamma(p + 1/2) for p > 0, without the differences
+/// of large logarithms: Stirling's series of the ratio from p = 32 on, B(p) = B(p + 1) (p + 1/2)/p
+/// below.
+double BetaWithHalf(double p);
 
 } // namespace radiometry

@@ -37,17 +37,30 @@ double SpecularFactor(ReflectionModel reflection, const Vec3& N, const Vec3& L, 
   {
     return 0.0;
   }
+  if (reflection != ReflectionModel::Physical)
+  {
+    return SpecularLobe(reflection, N, L, V, shininess);
+  }
+  const double lobe = SpecularLobe(ReflectionModel::Phong, N, L, V, shininess);
+  return lobe == 0.0 ? 0.0 : (shininess + 2.0) / (2.0 * Pi) * lobe * nl;
+}
+
+} // namespace
+
+double SpecularLobe(
+  ReflectionModel reflection, const Vec3& N, const Vec3& L, const Vec3& V, double shininess)
+{
+  if (!(shininess >= 0.0) || std::isinf(shininess))
+  {
+    return 0.0;
+  }
   if (reflection == ReflectionModel::BlinnPhong)
   {
     const Vec3 H = Direction(L + V);
     return H == Vec3{} ? 0.0 : PowerOfCosine(N, H, shininess);
   }
-  const double lobe = PowerOfCosine(2.0 * nl * N - L, V, shininess);
-  return reflection == ReflectionModel::Phong ? lobe
-                                              : (shininess + 2.0) / (2.0 * Pi) * lobe * nl;
+  return PowerOfCosine(2.0 * Dot(N, L) * N - L, V, shininess);
 }
-
-} // namespace
 
 double LightFactor(const DisplayLight& light, double r, const Vec3& toPoint)
 {

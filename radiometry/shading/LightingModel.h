@@ -87,6 +87,12 @@ struct ShadedColor
   double Alpha = 1.0;
 };
 
+/// The highlight of a legacy model for unit vectors N, L toward the light with N.L > 0, V toward the
+/// viewer: max(R.V, 0)^n (Phong) or max(N.H, 0)^n (BlinnPhong). 1 for n = 0; 0 for n that is negative,
+/// infinite or no number, and where H has no direction.
+double SpecularLobe(
+  ReflectionModel reflection, const Vec3& N, const Vec3& L, const Vec3& V, double shininess);
+
 /// Fall-off and cone of a light at distance r (m) in the direction `toPoint` (unit, from the light
 /// to the point): spot/(a + b r + c r^2). 1 for directional lights.
 double LightFactor(const DisplayLight& light, double r, const Vec3& toPoint);
