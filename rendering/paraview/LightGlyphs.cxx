@@ -6,16 +6,19 @@
 #include "radiometry/scene/Vec3.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -24,22 +27,37 @@ namespace vtkradiometry
 namespace
 {
 
+namespace names = radiometry::names;
 using radiometry::LightType;
 using radiometry::Vec3;
 
 constexpr int CircleSegments = 24;
 
+/// Lines, and for each which light (cell and point of the lights) it belongs to.
 class Lines
 {
 public:
-  vtkIdType Point(const Vec3& p) { return this->Points->InsertNextPoint(p.x, p.y, p.z); }
+  Lines() { this->Colors->SetNumberOfComponents(3); }
+  void Begin(vtkIdType lightCell, vtkIdType lightPoint, const std::array<unsigned char, 3>& color)
+  {
+    this->LightCell = lightCell;
+    this->LightPoint = lightPoint;
+    this->Color = color;
+  }
+  vtkIdType Point(const Vec3& p)
+  {
+    this->PointsOf->InsertNextId(this->LightPoint);
+    return this->Points->InsertNextPoint(p.x, p.y, p.z);
+  }
   void Segment(const Vec3& a, const Vec3& b)
   {
     const vtkIdType ids[2] = { this->Point(a), this->Point(b) };
+    this->Line();
     this->Cells->InsertNextCell(2, ids);
   }
   void Circle(const Vec3& center, const Vec3& u, const Vec3& v)
   {
+    this->Line();
     this->Cells->InsertNextCell(CircleSegments + 1);
     vtkIdType first = 0;
     for (int i = 0; i < CircleSegments; ++i)
@@ -51,8 +69,60 @@ public:
     }
     this->Cells->InsertCellPoint(first);
   }
+  /// Half of a circle, from u through v to -u.
+  void Arc(const Vec3& center, const Vec3& u, const Vec3& v)
+  {
+    this->Line();
+    this->Cells->InsertNextCell(CircleSegments / 2 + 1);
+    for (int i = 0; i <= CircleSegments / 2; ++i)
+    {
+      const double a = 2.0 * vtkMath::Pi() * i / CircleSegments;
+      this->Cells->InsertCellPoint(this->Point(center + std::cos(a) * u + std::sin(a) * v));
+    }
+  }
+  /// The lines as polydata, with the ids of `lights` that selection reads.
+  vtkSmartPointer<vtkPolyData> Finish(vtkPolyData* lights) const
+  {
+    auto glyphs = vtkSmartPointer<vtkPolyData>::New();
+    glyphs->SetPoints(this->Points);
+    glyphs->SetLines(this->Cells);
+    this->Colors->SetName(LightGlyphColors);
+    glyphs->GetCellData()->AddArray(this->Colors);
+    const auto copy = [](vtkDataSetAttributes* from, vtkIdList* ids, vtkDataSetAttributes* to) {
+      for (const char* name : { "vtkOriginalCellIds", "vtkOriginalPointIds", "vtkCompositeIndex",
+             "vtkProcessId" })
+      {
+        if (vtkAbstractArray* array = from->GetAbstractArray(name))
+        {
+          vtkSmartPointer<vtkAbstractArray> picked;
+          picked.TakeReference(array->NewInstance());
+          picked->SetName(name);
+          picked->SetNumberOfComponents(array->GetNumberOfComponents());
+          picked->SetNumberOfTuples(ids->GetNumberOfIds());
+          array->GetTuples(ids, picked);
+          to->AddArray(picked);
+        }
+      }
+    };
+    copy(lights->GetCellData(), this->CellsOf, glyphs->GetCellData());
+    copy(lights->GetPointData(), this->PointsOf, glyphs->GetPointData());
+    return glyphs;
+  }
+
+private:
+  void Line()
+  {
+    this->CellsOf->InsertNextId(this->LightCell);
+    this->Colors->InsertNextTypedTuple(this->Color.data());
+  }
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Cells;
+  vtkNew<vtkIdList> CellsOf;
+  vtkNew<vtkIdList> PointsOf;
+  vtkNew<vtkUnsignedCharArray> Colors;
+  vtkIdType LightCell = 0;
+  vtkIdType LightPoint = 0;
+  std::array<unsigned char, 3> Color{ { 255, 255, 255 } };
 };
 
 /// Two unit vectors that make a right-handed frame with the unit vector w.
@@ -78,7 +148,8 @@ void DrawPoint(Lines& lines, const Vec3& p, double size)
   }
 }
 
-void DrawSpot(Lines& lines, const Vec3& p, const Vec3& axis, double cutoff, double size)
+void DrawSpot(
+  Lines& lines, const Vec3& p, const Vec3& axis, double cutoff, double inner, double size)
 {
   Vec3 u;
   Vec3 v;
@@ -92,6 +163,11 @@ void DrawSpot(Lines& lines, const Vec3& p, const Vec3& axis, double cutoff, doub
     lines.Segment(p, base + radius * side);
   }
   lines.Segment(p, p + 1.2 * size * axis);
+  if (inner > 0.0 && inner < cutoff) // where the smooth edge begins
+  {
+    const double in = vtkMath::RadiansFromDegrees(inner);
+    lines.Circle(p + std::cos(in) * size * axis, std::sin(in) * size * u, std::sin(in) * size * v);
+  }
 }
 
 void DrawDirectional(Lines& lines, const Vec3& p, const Vec3& axis, double size)
@@ -101,6 +177,12 @@ void DrawDirectional(Lines& lines, const Vec3& p, const Vec3& axis, double size)
   Frame(axis, u, v);
   const double radius = 0.35 * size;
   lines.Circle(p, radius * u, radius * v);
+  for (int ray = 0; ray < 8; ++ray) // of the sun
+  {
+    const double a = vtkMath::Pi() * (ray + 0.5) / 4.0;
+    const Vec3 out = std::cos(a) * u + std::sin(a) * v;
+    lines.Segment(p + 1.2 * radius * out, p + 1.5 * radius * out);
+  }
   for (const Vec3& side : { Vec3{}, u, v, -u, -v })
   {
     const Vec3 from = p + radius * side;
@@ -141,97 +223,166 @@ void DrawPolygon(Lines& lines, const std::vector<Vec3>& corners, bool twoSided, 
   }
 }
 
-/// The polygons of a data set whose points are corners of area lights.
-void DrawAreas(vtkPolyData* data, double size, Lines& lines)
+void DrawEnvironment(Lines& lines, const Vec3& p, const Vec3& down, double size)
 {
-  namespace names = radiometry::names;
-  vtkDataArray* type = data->GetPointData()->GetArray(names::LightType);
-  vtkDataArray* enabled = data->GetPointData()->GetArray(names::LightEnabled);
-  vtkDataArray* twoSided = data->GetPointData()->GetArray(names::LightTwoSided);
+  Vec3 u;
+  Vec3 v;
+  Frame(-down, u, v);
+  const double radius = 0.5 * size;
+  lines.Circle(p, radius * u, radius * v);
+  lines.Arc(p, radius * u, -radius * down);
+  lines.Arc(p, radius * v, -radius * down);
+}
+
+/// The arrays of lights, with what stands for one that is absent.
+class LightValues
+{
+public:
+  explicit LightValues(vtkPolyData* lights)
+    : Data(lights->GetPointData())
+    , CellOfPoint(static_cast<std::size_t>(lights->GetNumberOfPoints()), 0)
+  {
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType c = 0; c < lights->GetNumberOfCells(); ++c)
+    {
+      lights->GetCellPoints(c, ids);
+      for (const vtkIdType p : *ids)
+      {
+        this->CellOfPoint[p] = c;
+      }
+    }
+  }
+  double At(const char* name, vtkIdType i, int component, double absent) const
+  {
+    vtkDataArray* array = this->Data->GetArray(name);
+    return array && component < array->GetNumberOfComponents() ? array->GetComponent(i, component)
+                                                               : absent;
+  }
+  LightType Type(vtkIdType i) const
+  {
+    return static_cast<LightType>(static_cast<int>(this->At(names::LightType, i, 0, 0.0)));
+  }
+  vtkIdType Cell(vtkIdType i) const { return this->CellOfPoint[i]; }
+  bool OfCamera(vtkIdType i) const { return this->At(names::AttachedTo, i, 0, 0.0) == 2.0; }
+  std::array<unsigned char, 3> Color(vtkIdType i) const
+  {
+    if (this->At(names::LightEnabled, i, 0, 1.0) == 0.0)
+    {
+      return { { 96, 96, 96 } };
+    }
+    vtkDataArray* intensity = this->Data->GetArray(names::Intensity);
+    std::array<unsigned char, 3> color{ { 255, 255, 255 } };
+    if (intensity && intensity->GetNumberOfComponents() == 3)
+    {
+      double rgb[3];
+      intensity->GetTuple(i, rgb);
+      const double most = *std::max_element(rgb, rgb + 3);
+      for (int c = 0; most > 0.0 && std::isfinite(most) && c < 3; ++c)
+      {
+        color[c] = static_cast<unsigned char>(255.0 * std::clamp(rgb[c] / most, 0.0, 1.0) + 0.5);
+      }
+    }
+    return color;
+  }
+
+private:
+  vtkPointData* Data;
+  std::vector<vtkIdType> CellOfPoint;
+};
+
+/// The polygons of a data set whose points are corners of area lights.
+void DrawAreas(vtkPolyData* data, const LightValues& values, double size, Lines& lines)
+{
   vtkNew<vtkIdList> ids;
-  for (vtkIdType c = 0; type && c < data->GetNumberOfPolys(); ++c)
+  for (vtkIdType c = 0; c < data->GetNumberOfPolys(); ++c)
   {
     data->GetPolys()->GetCellAtId(c, ids);
     std::vector<Vec3> corners;
-    bool drawn = ids->GetNumberOfIds() > 2;
+    bool drawn = ids->GetNumberOfIds() > 2 && !values.OfCamera(ids->GetId(0));
     for (const vtkIdType p : *ids)
     {
       double x[3];
       data->GetPoint(p, x);
       corners.push_back({ x[0], x[1], x[2] });
-      drawn = drawn && type->GetComponent(p, 0) == static_cast<double>(LightType::Area) &&
-        IsFinite(corners.back());
+      drawn = drawn && values.Type(p) == LightType::Area && IsFinite(corners.back());
     }
-    if (drawn && (!enabled || enabled->GetComponent(ids->GetId(0), 0) != 0.0))
+    if (drawn)
     {
-      DrawPolygon(lines, corners, twoSided && twoSided->GetComponent(ids->GetId(0), 0) != 0.0, size);
+      const vtkIdType first = ids->GetId(0);
+      lines.Begin(values.Cell(first), first, values.Color(first));
+      DrawPolygon(lines, corners, values.At(names::LightTwoSided, first, 0, 0.0) != 0.0, size);
     }
   }
 }
 
-void DrawAll(vtkPolyData* data, double size, Lines& lines)
-{
-  namespace names = radiometry::names;
-  DrawAreas(data, size, lines);
-  const auto value = [data](const char* name, vtkIdType i, int component, double absent) {
-    vtkDataArray* array = data->GetPointData()->GetArray(name);
-    return array && component < array->GetNumberOfComponents() ? array->GetComponent(i, component)
-                                                               : absent;
-  };
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    data->GetPoint(i, x);
-    const Vec3 p{ x[0], x[1], x[2] };
-    const Vec3 axis = radiometry::Normalized({ value(names::Direction, i, 0, 0.0),
-      value(names::Direction, i, 1, 0.0), value(names::Direction, i, 2, -1.0) });
-    if (value(names::LightEnabled, i, 0, 1.0) == 0.0 || !IsFinite(p) || !IsFinite(axis))
-    {
-      continue;
-    }
-    const auto type = static_cast<LightType>(static_cast<int>(value(names::LightType, i, 0, 0.0)));
-    const double cutoff = value(names::SpotCutoff, i, 0, 180.0);
-    if (type == LightType::Directional)
-    {
-      DrawDirectional(lines, p, axis, size);
-    }
-    else if (type == LightType::Spot && cutoff > 0.0 && cutoff <= 90.0)
-    {
-      DrawSpot(lines, p, axis, cutoff, size);
-    }
-    else if (type == LightType::Point || type == LightType::Spot)
-    {
-      DrawPoint(lines, p, size);
-    }
-  }
-}
-
-} // namespace
-
-void MakeLightGlyphs(vtkDataObject* lights, double size, vtkPolyData* glyphs)
+vtkSmartPointer<vtkPolyData> DrawAll(vtkPolyData* data, double size)
 {
   Lines lines;
   if (size > 0.0)
   {
-    if (auto* data = vtkPolyData::SafeDownCast(lights))
+    const LightValues values(data);
+    DrawAreas(data, values, size, lines);
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
     {
-      DrawAll(data, size, lines);
-    }
-    else if (auto* tree = vtkCompositeDataSet::SafeDownCast(lights))
-    {
-      auto it = vtk::TakeSmartPointer(tree->NewIterator());
-      for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+      double x[3];
+      data->GetPoint(i, x);
+      const Vec3 p{ x[0], x[1], x[2] };
+      const Vec3 axis = radiometry::Normalized({ values.At(names::Direction, i, 0, 0.0),
+        values.At(names::Direction, i, 1, 0.0), values.At(names::Direction, i, 2, -1.0) });
+      if (!IsFinite(p) || !IsFinite(axis) || values.OfCamera(i))
       {
-        if (auto* block = vtkPolyData::SafeDownCast(it->GetCurrentDataObject()))
-        {
-          DrawAll(block, size, lines);
-        }
+        continue;
+      }
+      lines.Begin(values.Cell(i), i, values.Color(i));
+      const LightType type = values.Type(i);
+      const double cutoff = values.At(names::SpotCutoff, i, 0, 180.0);
+      if (type == LightType::Directional)
+      {
+        DrawDirectional(lines, p, axis, size);
+      }
+      else if (type == LightType::Environment)
+      {
+        DrawEnvironment(lines, p, axis, size);
+      }
+      else if (type == LightType::Spot && cutoff > 0.0 && cutoff <= 90.0)
+      {
+        DrawSpot(lines, p, axis, cutoff, values.At(names::SpotInnerCutoff, i, 0, -1.0), size);
+      }
+      else if (type == LightType::Point || type == LightType::Spot)
+      {
+        DrawPoint(lines, p, size);
       }
     }
   }
-  glyphs->Initialize();
-  glyphs->SetPoints(lines.Points);
-  glyphs->SetLines(lines.Cells);
+  return lines.Finish(data);
+}
+
+} // namespace
+
+const char* const LightGlyphColors = "LightGlyphColors";
+
+vtkSmartPointer<vtkDataObject> MakeLightGlyphs(vtkDataObject* lights, double size)
+{
+  if (auto* data = vtkPolyData::SafeDownCast(lights))
+  {
+    return DrawAll(data, size);
+  }
+  vtkSmartPointer<vtkDataObject> glyphs;
+  if (auto* tree = vtkCompositeDataSet::SafeDownCast(lights))
+  {
+    auto made = vtk::TakeSmartPointer(tree->NewInstance());
+    made->CopyStructure(tree);
+    auto it = vtk::TakeSmartPointer(tree->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      if (auto* block = vtkPolyData::SafeDownCast(it->GetCurrentDataObject()))
+      {
+        made->SetDataSet(it, DrawAll(block, size));
+      }
+    }
+    glyphs = made;
+  }
+  return glyphs;
 }
 
 } // namespace vtkradiometry

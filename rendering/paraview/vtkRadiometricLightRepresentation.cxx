@@ -3,61 +3,125 @@
 
 #include "LightGlyphs.h"
 
+#include "vtkBoundingBox.h"
+#include "vtkCamera.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkMapper.h"
+#include "vtkMath.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
 #include "vtkPhongGouraudMapper.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 vtkStandardNewMacro(vtkRadiometricLightRepresentation);
 
 namespace
 {
 
-/// What each visible representation offers, by renderer. Representations live and render in one
-/// thread.
-using Offers = std::map<vtkRadiometricLightRepresentation*, vtkSmartPointer<vtkDataObject>>;
+/// What each visible representation offers, by renderer, in an order that is the same on every rank:
+/// that of the view's numbers for representations. Representations live and render in one thread.
+using LightOwner = std::pair<unsigned int, vtkRadiometricLightRepresentation*>;
+using Offers = std::map<LightOwner, vtkSmartPointer<vtkMultiBlockDataSet>>;
 std::map<vtkRenderer*, Offers>& AllOffers()
 {
   static std::map<vtkRenderer*, Offers> offers;
   return offers;
 }
 
-/// The polydata of a tree, or the data itself: not every tree may stand in a multi-block data set.
-void AppendBlocks(vtkDataObject* data, vtkMultiBlockDataSet* blocks)
+/// The polydata of a tree that the view's block settings show, or the data itself. Not every tree may
+/// stand in a multi-block data set, hence one level.
+vtkSmartPointer<vtkMultiBlockDataSet> ShownBlocks(
+  vtkDataObject* data, vtkCompositeDataDisplayAttributes* attributes)
 {
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   auto* tree = vtkCompositeDataSet::SafeDownCast(data);
   if (!tree)
   {
-    blocks->SetBlock(blocks->GetNumberOfBlocks(), data);
-    return;
+    blocks->SetBlock(0, data);
+    return blocks;
   }
+  const bool byDefault = !attributes->HasBlockVisibility(tree) || attributes->GetBlockVisibility(tree);
   auto it = vtk::TakeSmartPointer(tree->NewIterator());
   for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
   {
-    blocks->SetBlock(blocks->GetNumberOfBlocks(), it->GetCurrentDataObject());
+    vtkDataObject* block = it->GetCurrentDataObject();
+    if (attributes->HasBlockVisibility(block) ? attributes->GetBlockVisibility(block) : byDefault)
+    {
+      blocks->SetBlock(blocks->GetNumberOfBlocks(), block);
+    }
   }
+  return blocks;
+}
+
+/// Whether two lists of lights are the same objects, unchanged since the first was made.
+bool Same(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
+{
+  if (!a || !b || a->GetNumberOfBlocks() != b->GetNumberOfBlocks())
+  {
+    return a == b;
+  }
+  const vtkMTimeType made = a->vtkObject::GetMTime();
+  for (unsigned int k = 0; k < a->GetNumberOfBlocks(); ++k)
+  {
+    if (a->GetBlock(k) != b->GetBlock(k) || a->GetBlock(k)->GetMTime() > made)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void AddBounds(vtkDataObject* glyphs, vtkBoundingBox& bounds)
+{
+  auto* tree = vtkCompositeDataSet::SafeDownCast(glyphs);
+  double box[6];
+  if (auto* data = vtkDataSet::SafeDownCast(glyphs))
+  {
+    data->GetBounds(box);
+    bounds.AddBounds(box);
+  }
+  else if (tree)
+  {
+    tree->GetBounds(box);
+    bounds.AddBounds(box);
+  }
+}
+
+/// An eighth of the height of the picture, at the distance of the camera's focal point.
+double LegibleSize(vtkCamera* camera)
+{
+  const double half = camera->GetParallelProjection()
+    ? camera->GetParallelScale()
+    : camera->GetDistance() * std::tan(vtkMath::RadiansFromDegrees(camera->GetViewAngle() / 2.0));
+  return 0.25 * half;
 }
 
 } // namespace
 
-vtkRadiometricLightRepresentation::vtkRadiometricLightRepresentation() = default;
+vtkRadiometricLightRepresentation::vtkRadiometricLightRepresentation()
+{
+  // Their size follows the picture's: they may not take part in deciding what it shows.
+  this->Actor->SetUseBounds(false);
+}
 
 vtkRadiometricLightRepresentation::~vtkRadiometricLightRepresentation()
 {
   this->Offer(this->OfferedTo, nullptr);
   for (auto& offers : AllOffers())
   {
-    offers.second.erase(this); // of renderers that are gone
+    offers.second.erase({ this->GetUniqueIdentifier(), this }); // of renderers that are gone
   }
 }
 
@@ -71,39 +135,48 @@ void vtkRadiometricLightRepresentation::SetGlyphSize(double size)
   }
 }
 
-void vtkRadiometricLightRepresentation::UpdateGlyphs(vtkDataObject* lights)
+void vtkRadiometricLightRepresentation::UpdateGlyphs(vtkDataObject* lights, double size)
 {
   const vtkMTimeType time = lights ? lights->GetMTime() : 0;
-  if (this->GlyphsOf == lights && this->GlyphsTime == time && this->GlyphsSize == this->GlyphSize)
+  if (this->GlyphsOf != lights || this->GlyphsTime != time || this->GlyphsSize != size)
   {
-    return;
+    this->GlyphsOf = lights;
+    this->GlyphsTime = time;
+    this->GlyphsSize = size;
+    this->Glyphs = vtkradiometry::MakeLightGlyphs(lights, size);
   }
-  this->GlyphsOf = lights;
-  this->GlyphsTime = time;
-  this->GlyphsSize = this->GlyphSize;
-  vtkradiometry::MakeLightGlyphs(lights, this->GlyphSize, this->Glyphs);
+  for (vtkMapper* mapper : { this->Mapper, this->LODMapper })
+  {
+    mapper->SetInputDataObject(this->Glyphs);
+    mapper->SetScalarVisibility(true);
+    mapper->SetScalarMode(VTK_SCALAR_MODE_USE_CELL_FIELD_DATA);
+    mapper->SelectColorArray(vtkradiometry::LightGlyphColors);
+    mapper->SetColorMode(VTK_COLOR_MODE_DIRECT_SCALARS);
+    if (auto* composite = vtkPhongGouraudMapperBase::SafeDownCast(mapper))
+    {
+      this->PopulateBlockAttributes(composite->GetCompositeDataDisplayAttributes(), this->Glyphs);
+    }
+  }
 }
 
-void vtkRadiometricLightRepresentation::Offer(vtkRenderer* renderer, vtkDataObject* lights)
+void vtkRadiometricLightRepresentation::Offer(vtkRenderer* renderer, vtkMultiBlockDataSet* lights)
 {
-  const vtkMTimeType time = lights ? lights->GetMTime() : 0;
-  if (!renderer ||
-    (this->OfferedTo == renderer && this->Offered == lights && this->OfferedTime == time))
+  if (!renderer || (this->OfferedTo == renderer && Same(this->Offered, lights)))
   {
     return;
   }
   Offers& offers = AllOffers()[renderer];
+  const LightOwner owner{ this->GetUniqueIdentifier(), this };
   if (lights)
   {
-    offers[this] = lights;
+    offers[owner] = lights;
   }
   else
   {
-    offers.erase(this);
+    offers.erase(owner);
   }
   this->OfferedTo = lights ? renderer : nullptr;
   this->Offered = lights;
-  this->OfferedTime = time;
 
   vtkInformation* info = renderer->GetInformation();
   if (offers.empty())
@@ -118,7 +191,10 @@ void vtkRadiometricLightRepresentation::Offer(vtkRenderer* renderer, vtkDataObje
   vtkNew<vtkMultiBlockDataSet> together;
   for (const auto& offer : offers)
   {
-    AppendBlocks(offer.second, together);
+    for (unsigned int k = 0; k < offer.second->GetNumberOfBlocks(); ++k)
+    {
+      together->SetBlock(together->GetNumberOfBlocks(), offer.second->GetBlock(k));
+    }
   }
   if (!info)
   {
@@ -141,21 +217,30 @@ int vtkRadiometricLightRepresentation::ProcessViewRequest(
   {
     // Every rank draws every surface under every light.
     vtkPVRenderView::SetDeliverToAllProcesses(inInfo, this, true);
-    vtkNew<vtkPolyData> glyphs;
-    vtkradiometry::MakeLightGlyphs(
-      vtkPVView::GetPiece(inInfo, this), this->GlyphSize, glyphs);
-    if (glyphs->GetNumberOfPoints() > 0)
+    vtkBoundingBox bounds;
+    AddBounds(vtkradiometry::MakeLightGlyphs(vtkPVView::GetPiece(inInfo, this), this->GlyphSize),
+      bounds); // none of glyphs whose size follows the picture's
+    if (bounds.IsValid())
     {
-      vtkPVRenderView::SetGeometryBounds(inInfo, this, glyphs->GetBounds());
+      double box[6];
+      bounds.GetBounds(box);
+      vtkPVRenderView::SetGeometryBounds(inInfo, this, box);
     }
   }
   else if (request == vtkPVView::REQUEST_RENDER() && view)
   {
     vtkDataObject* lights = vtkPVView::GetDeliveredPiece(inInfo, this);
-    this->Offer(view->GetRenderer(), this->Illuminate ? lights : nullptr);
-    this->UpdateGlyphs(lights);
-    this->Mapper->SetInputDataObject(this->Glyphs);
-    this->LODMapper->SetInputDataObject(this->Glyphs);
+    vtkSmartPointer<vtkMultiBlockDataSet> shown;
+    if (this->Illuminate && lights)
+    {
+      vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+      this->PopulateBlockAttributes(attributes, lights);
+      shown = ShownBlocks(lights, attributes);
+    }
+    this->Offer(view->GetRenderer(), shown);
+    const bool automatic = this->GlyphSize == 0.0;
+    const double size = automatic ? LegibleSize(view->GetActiveCamera()) : this->GlyphSize;
+    this->UpdateGlyphs(lights, this->ShowGlyphs ? size : 0.0);
   }
   return 1;
 }
@@ -179,5 +264,6 @@ void vtkRadiometricLightRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "GlyphSize: " << this->GlyphSize << "\n";
+  os << indent << "ShowGlyphs: " << this->ShowGlyphs << "\n";
   os << indent << "Illuminate: " << this->Illuminate << "\n";
 }

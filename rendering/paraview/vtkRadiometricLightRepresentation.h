@@ -5,20 +5,22 @@
  *
  *   Reads   polydata, one vertex a light, in the light arrays of docs/arrays.md
  *   Writes  hands the lights of all visible representations of this kind to the view's renderer
- *           (vtkPhongGouraudMapper::LIGHT_DATA), on every rank, and draws a glyph for each:
- *           point light three circles, spot its cone, directional light a disc with arrows
- *   Limits  glyphs have one size, GlyphSize, in the scene's units
+ *           (vtkPhongGouraudMapper::LIGHT_DATA), on every rank, and draws a glyph for each in its
+ *           colour: point light three circles, spot its cones, directional light a sun with arrows,
+ *           area light its outline, environment a dome; one that is switched off dark grey
+ *   Limits  a light is where its data says: position, orientation and scale of the representation do
+ *           not move it; a hidden block gives no light; lights attached to the camera have no glyph
  */
 #ifndef vtkRadiometricLightRepresentation_h
 #define vtkRadiometricLightRepresentation_h
 
 #include "vtkGeometryRepresentationWithFaces.h"
-#include "vtkNew.h"                               // for ivars
 #include "vtkRadiometryRenderingParaViewModule.h" // for export macro
 #include "vtkSmartPointer.h"                      // for ivars
 #include "vtkWeakPointer.h"                       // for ivars
 
-class vtkPolyData;
+class vtkDataObject;
+class vtkMultiBlockDataSet;
 class vtkRenderer;
 
 class VTKRADIOMETRYRENDERINGPARAVIEW_EXPORT vtkRadiometricLightRepresentation
@@ -35,10 +37,19 @@ public:
 
   ///@{
   /**
-   * Length of the glyphs in the scene's units. Default 0.25; 0 draws none.
+   * Length of the glyphs in the scene's units. 0 (default): an eighth of the height of the picture, at
+   * the distance of the camera's focal point.
    */
   void SetGlyphSize(double size);
   vtkGetMacro(GlyphSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * Are the glyphs drawn (default on)?
+   */
+  vtkSetMacro(ShowGlyphs, bool);
+  vtkGetMacro(ShowGlyphs, bool);
   ///@}
 
   ///@{
@@ -49,6 +60,17 @@ public:
   vtkGetMacro(Illuminate, bool);
   ///@}
 
+  ///@{
+  /**
+   * Without effect: light comes from where the data says.
+   */
+  void SetOrientation(double, double, double) override {}
+  void SetOrigin(double, double, double) override {}
+  void SetPosition(double, double, double) override {}
+  void SetScale(double, double, double) override {}
+  void SetUserTransform(const double[16]) override {}
+  ///@}
+
 protected:
   vtkRadiometricLightRepresentation();
   ~vtkRadiometricLightRepresentation() override;
@@ -56,17 +78,17 @@ protected:
   bool RemoveFromView(vtkView* view) override;
 
   /// Puts the lights of this representation among those of the renderer; null takes them away.
-  void Offer(vtkRenderer* renderer, vtkDataObject* lights);
+  void Offer(vtkRenderer* renderer, vtkMultiBlockDataSet* lights);
 
-  void UpdateGlyphs(vtkDataObject* lights);
+  void UpdateGlyphs(vtkDataObject* lights, double size);
 
-  double GlyphSize = 0.25;
+  double GlyphSize = 0.0;
+  bool ShowGlyphs = true;
   bool Illuminate = true;
   vtkWeakPointer<vtkRenderer> OfferedTo;
-  vtkSmartPointer<vtkDataObject> Offered;
-  vtkMTimeType OfferedTime = 0;
+  vtkSmartPointer<vtkMultiBlockDataSet> Offered;
   // The glyphs, and what they were made of.
-  vtkNew<vtkPolyData> Glyphs;
+  vtkSmartPointer<vtkDataObject> Glyphs;
   vtkSmartPointer<vtkDataObject> GlyphsOf;
   vtkMTimeType GlyphsTime = 0;
   double GlyphsSize = -1.0;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiometricSurfaceRepresentation.h"
 
+#include "FieldOfData.h"
+
 #include "vtkObjectFactory.h"
+#include "vtkPVView.h"
 #include "vtkPhongGouraudMapper.h"
 
 vtkStandardNewMacro(vtkRadiometricSurfaceRepresentation);
@@ -93,25 +96,85 @@ void vtkRadiometricSurfaceRepresentation::SetMetersPerUnit(double meters)
   vtkForwardToMappers(SetMetersPerUnit(meters));
 }
 
-void vtkRadiometricSurfaceRepresentation::SetFieldMode(int mode)
-{
-  vtkForwardToMappers(SetFieldMode(mode));
-}
-
-void vtkRadiometricSurfaceRepresentation::SetFieldScale(double scale)
-{
-  vtkForwardToMappers(SetFieldScale(scale));
-}
-
 void vtkRadiometricSurfaceRepresentation::SetFieldArray(
   int vtkNotUsed(index), int vtkNotUsed(port), int vtkNotUsed(connection), int association,
   const char* name)
 {
-  vtkForwardToMappers(SetFieldAssociation(association == 1 ? 1 : 0));
-  vtkForwardToMappers(SetFieldArrayName(name));
+  this->FieldAssociation = association == 1 ? 1 : 0;
+  this->FieldArrayName = name ? name : "";
+}
+
+void vtkRadiometricSurfaceRepresentation::ChooseField(vtkMapper* mapper, vtkDataObject* data)
+{
+  auto* own = vtkPhongGouraudMapper::SafeDownCast(mapper);
+  if (!own)
+  {
+    return;
+  }
+  int mode = this->FieldDisplay;
+  int association = this->FieldAssociation;
+  std::string name = this->FieldArrayName;
+  double scale = this->FieldScale;
+  if (mode == DISPLAY_AUTO)
+  {
+    const vtkradiometry::ShownField field = vtkradiometry::FindLightOfData(data);
+    mode = field.Name.empty() ? vtkPhongGouraudMapper::FIELD_OFF : vtkPhongGouraudMapper::FIELD_ON;
+    association = field.Association;
+    name = field.Name;
+    scale *= field.Scale;
+  }
+  if (mode == vtkPhongGouraudMapper::FIELD_OFF &&
+    (this->MaterialSource == MATERIAL_OF_DATA ||
+      (this->MaterialSource == MATERIAL_AUTO && vtkradiometry::HasMaterials(data))))
+  {
+    mode = vtkPhongGouraudMapper::FIELD_MATERIALS;
+  }
+  own->SetFieldMode(mode);
+  own->SetFieldAssociation(association);
+  own->SetFieldArrayName(name.c_str());
+  own->SetFieldScale(scale);
+  if (mapper == this->Mapper)
+  {
+    const char* words[] = { "material of the property, lit", " as light", "normals",
+      " as reflectance, lit", "materials of the data, lit", "scalars through their colour map" };
+    const bool named = mode == vtkPhongGouraudMapper::FIELD_ON ||
+      mode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
+    this->FieldUsed = (named ? name : std::string()) + words[mode];
+  }
+}
+
+int vtkRadiometricSurfaceRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  {
+    return 0;
+  }
+  if (request == vtkPVView::REQUEST_RENDER())
+  {
+    // The data as it is drawn: what interaction shows may have fewer arrays.
+    vtkDataObject* data = vtkPVView::GetDeliveredPiece(inInfo, this);
+    vtkDataObject* coarse = vtkPVView::GetDeliveredPieceLOD(inInfo, this);
+    this->ChooseField(this->Mapper, data);
+    this->ChooseField(this->BackfaceMapper, data);
+    this->ChooseField(this->LODMapper, coarse ? coarse : data);
+    this->ChooseField(this->LODBackfaceMapper, coarse ? coarse : data);
+  }
+  return 1;
+}
+
+const char* vtkRadiometricSurfaceRepresentation::GetShadingUsed()
+{
+  const char* names[] = { "Flat", "Gouraud", "Phong", "Auto" };
+  auto* mapper = vtkPhongGouraudMapper::SafeDownCast(this->Mapper);
+  return names[mapper ? mapper->GetShadingUsed() : 2];
 }
 
 void vtkRadiometricSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "FieldDisplay: " << this->FieldDisplay << " (" << this->FieldUsed << ")\n";
+  os << indent << "MaterialSource: " << this->MaterialSource << "\n";
+  os << indent << "FieldArrayName: " << this->FieldArrayName << "\n";
+  os << indent << "FieldScale: " << this->FieldScale << "\n";
 }

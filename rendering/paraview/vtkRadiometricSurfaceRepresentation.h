@@ -3,17 +3,28 @@
  * @class   vtkRadiometricSurfaceRepresentation
  * @brief   ParaView representation "Radiometric Surface": vtkPhongGouraudMapper in a render view
  *
- *   Reads   polydata, unstructured, uniform, structured and composite data
+ *   Reads   every kind of data that ParaView shows as a surface, composite data too
  *   Lights  all data shown as "Radiometric Lights" in the same view, else the view's own lights
  *   Fails   as the mapper does
  *
- * Each property is the mapper's of the same name; meanings and ranges are written there.
+ * With FieldDisplay and MaterialSource on Auto the data decides what is drawn, the first that some
+ * block has (of its cells, its points or as field data of the block):
+ *   Radiance, Radiosity/pi, Luminance/K, LuminousExitance/(pi K)   that field as light, W/(m^2 sr);
+ *   a material array of docs/arrays.md                             those materials, lit;
+ *   else                                                           the property's material, lit.
+ * K is the field array LuminousEfficacy, else 683.002 lm/W.
+ *
+ * Each other property is the mapper's of the same name; meanings and ranges are written there.
  */
 #ifndef vtkRadiometricSurfaceRepresentation_h
 #define vtkRadiometricSurfaceRepresentation_h
 
 #include "vtkGeometryRepresentationWithFaces.h"
 #include "vtkRadiometryRenderingParaViewModule.h" // for export macro
+
+#include <string> // for ivars
+
+class vtkMapper;
 
 class VTKRADIOMETRYRENDERINGPARAVIEW_EXPORT vtkRadiometricSurfaceRepresentation
   : public vtkGeometryRepresentationWithFaces
@@ -22,6 +33,38 @@ public:
   static vtkRadiometricSurfaceRepresentation* New();
   vtkTypeMacro(vtkRadiometricSurfaceRepresentation, vtkGeometryRepresentationWithFaces);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  int ProcessViewRequest(vtkInformationRequestKey* request, vtkInformation* inInfo,
+    vtkInformation* outInfo) override;
+
+  enum
+  {
+    DISPLAY_AUTO = -1 // else a vtkPhongGouraudMapper::FieldModeType other than FIELD_MATERIALS
+  };
+  enum MaterialSourceType
+  {
+    MATERIAL_AUTO = 0,
+    MATERIAL_OF_DATA = 1,
+    MATERIAL_OF_PROPERTY = 2
+  };
+
+  ///@{
+  /**
+   * What the surface shows: DISPLAY_AUTO (default), or a field mode of the mapper. With FIELD_OFF it
+   * is lit by the lights.
+   */
+  vtkSetClampMacro(FieldDisplay, int, DISPLAY_AUTO, 5);
+  vtkGetMacro(FieldDisplay, int);
+  ///@}
+
+  ///@{
+  /**
+   * The material of a lit surface: that of the data where it has one (default), always that of the
+   * data, or always that of the property (its colour, specular, ...).
+   */
+  vtkSetClampMacro(MaterialSource, int, MATERIAL_AUTO, MATERIAL_OF_PROPERTY);
+  vtkGetMacro(MaterialSource, int);
+  ///@}
 
   ///@{
   /**
@@ -35,19 +78,40 @@ public:
   void SetEmission(double r, double g, double b);
   void SetLightScale(double scale);
   void SetMetersPerUnit(double meters);
-  void SetFieldMode(int mode);
-  void SetFieldScale(double scale);
   ///@}
 
+  ///@{
   /**
-   * The array that is drawn, as ParaView names arrays: only association (0 points, 1 cells) and
-   * name count. An empty name: none.
+   * The array that is drawn where FieldDisplay asks for one, as ParaView names arrays: only
+   * association (0 points, 1 cells) and name count (empty: none); and the factor on it. Auto uses the
+   * factor, not the array.
    */
   void SetFieldArray(int index, int port, int connection, int association, const char* name);
+  vtkSetMacro(FieldScale, double);
+  vtkGetMacro(FieldScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * What the last frame was drawn with: "Flat", "Gouraud" or "Phong"; and what it showed, in words.
+   */
+  const char* GetShadingUsed();
+  const char* GetFieldUsed() { return this->FieldUsed.c_str(); }
+  ///@}
 
 protected:
   vtkRadiometricSurfaceRepresentation();
   ~vtkRadiometricSurfaceRepresentation() override;
+
+  /// Sets a mapper's field mode, array and scale for the data that it draws.
+  void ChooseField(vtkMapper* mapper, vtkDataObject* data);
+
+  int FieldDisplay = DISPLAY_AUTO;
+  int MaterialSource = MATERIAL_AUTO;
+  int FieldAssociation = 0;
+  std::string FieldArrayName;
+  double FieldScale = 1.0;
+  std::string FieldUsed;
 
 private:
   vtkRadiometricSurfaceRepresentation(const vtkRadiometricSurfaceRepresentation&) = delete;

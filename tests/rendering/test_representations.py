@@ -71,6 +71,7 @@ def show_surface(source, view):
 def show_lights(source, view, glyph=0.0):
     shown = pv.Show(source, view)
     shown.Representation = "Radiometric Lights"
+    shown.ShowGlyphs = int(glyph > 0)
     shown.LightGlyphSize = glyph
     return shown
 
@@ -141,8 +142,8 @@ def test_lights_light_the_picture():
     # A glyph is drawn where the light is.
     dark = picture(view)
     lamp.Position = [-0.4, 0, 2]
-    lights.LightGlyphSize = 0.0
     without = picture(view)
+    lights.ShowGlyphs = 1
     lights.LightGlyphSize = 0.5
     drawn = np.argwhere(np.abs(picture(view) - without).sum(axis=2) > 0)
     check(len(drawn) > 50, "no glyph")
@@ -184,7 +185,8 @@ output.CellData.append(numpy.array([0.1, 0.4, 0.8, 7.0]), "Radiosity")"""
 
     cells.Script = """import numpy
 output.CellData.append(numpy.array([0.2, 0.4, 0.6, 0.8]), "DiffuseReflectance")"""
-    surface.FieldDisplay = "Materials of the data"
+    surface.FieldDisplay = "Lit by the lights"  # with the materials of the data, by default
+    surface.FieldScale = 1.0
     sun = pv.DirectionalLight(Direction=[0, 0, -1], Intensity=math.pi)
     show_lights(sun, view)
     image = picture(view)
