@@ -110,11 +110,7 @@ double LegibleSize(vtkCamera* camera)
 
 } // namespace
 
-vtkRadiometricLightRepresentation::vtkRadiometricLightRepresentation()
-{
-  // Their size follows the picture's: they may not take part in deciding what it shows.
-  this->Actor->SetUseBounds(false);
-}
+vtkRadiometricLightRepresentation::vtkRadiometricLightRepresentation() = default;
 
 vtkRadiometricLightRepresentation::~vtkRadiometricLightRepresentation()
 {
@@ -217,6 +213,9 @@ int vtkRadiometricLightRepresentation::ProcessViewRequest(
   {
     // Every rank draws every surface under every light.
     vtkPVRenderView::SetDeliverToAllProcesses(inInfo, this, true);
+    // Glyphs whose size follows the picture's may not decide what it shows (the view adds up its
+    // bounds after this request), but compositing needs their bounds.
+    this->Actor->SetUseBounds(false);
     vtkBoundingBox bounds;
     AddBounds(vtkradiometry::MakeLightGlyphs(vtkPVView::GetPiece(inInfo, this), this->GlyphSize),
       bounds); // none of glyphs whose size follows the picture's
@@ -241,6 +240,7 @@ int vtkRadiometricLightRepresentation::ProcessViewRequest(
     const bool automatic = this->GlyphSize == 0.0;
     const double size = automatic ? LegibleSize(view->GetActiveCamera()) : this->GlyphSize;
     this->UpdateGlyphs(lights, this->ShowGlyphs ? size : 0.0);
+    this->Actor->SetUseBounds(true);
   }
   return 1;
 }
