@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RadiometricResults.h"
 
+#include "BandWavelengths.h"
 #include "SurfacePoints.h"
+#include "radiometry/imaging/ColorMatching.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/Units.h"
 
@@ -19,6 +21,7 @@
 #include "vtkTable.h"
 
 #include <array>
+#include <numeric>
 
 namespace names = radiometry::names;
 
@@ -50,6 +53,38 @@ const Photometry* Counterpart(const std::string& name, std::string& renamed)
   }
   return nullptr;
 }
+
+/// The lumens of one tuple: by V(lambda) where the bands' wavelengths are known.
+class Photometer
+{
+public:
+  Photometer(int bands, double efficacy, const std::vector<double>& wavelengths)
+    : Bands(bands)
+    , Efficacy(efficacy)
+  {
+    if (!wavelengths.empty())
+    {
+      const radiometry::imaging::SpectralColor color(wavelengths.data(), bands);
+      for (const auto& xyz : color.GetXyzWeights())
+      {
+        this->Shares.push_back(xyz[1]);
+      }
+    }
+  }
+
+  double operator()(const double* tuple) const
+  {
+    return this->Shares.empty()
+      ? radiometry::units::Photometric(tuple, this->Bands, this->Efficacy)
+      : this->Efficacy *
+        std::inner_product(this->Shares.begin(), this->Shares.end(), tuple, 0.0);
+  }
+
+private:
+  int Bands;
+  double Efficacy;
+  std::vector<double> Shares;
+};
 
 /// The leaves in the order in which SceneAdapter saw them.
 std::vector<vtkPolyData*> MakeLeaves(vtkDataObject* output, vtkDataObject* input)
@@ -103,6 +138,7 @@ void RadiometricResults::AddArrays(const std::vector<Result::Quantity>& quantiti
     return numbers.empty() ? static_cast<std::ptrdiff_t>(first) + i
                            : static_cast<std::ptrdiff_t>(numbers[static_cast<std::size_t>(i)]);
   };
+  const Photometer lumens(this->Bands, this->Efficacy, this->Wavelengths);
   const auto add = [&](const std::string& name, const std::vector<double>& values, bool photometric) {
     const int components = photometric ? 1 : this->Bands;
     vtkNew<vtkDoubleArray> array;
@@ -114,8 +150,7 @@ void RadiometricResults::AddArrays(const std::vector<Result::Quantity>& quantiti
       const double* tuple = at(i) < 0 ? nullptr : &values[at(i) * this->Bands];
       if (photometric)
       {
-        array->SetValue(
-          i, tuple ? radiometry::units::Photometric(tuple, this->Bands, this->Efficacy) : 0.0);
+        array->SetValue(i, tuple ? lumens(tuple) : 0.0);
       }
       else
       {
@@ -182,6 +217,7 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
       }
     }
   }
+  AddWavelengths(this->Wavelengths, output);
   vtkFieldData* data = output->GetFieldData();
   AddStrings(data, "RadiometryUnits", units);
   AddStrings(data, "RadiometryVersion", { VTKRADIOMETRY_VERSION });

@@ -22,10 +22,13 @@ class RadiometricResults
 public:
   using Result = vtkRadiometricFilter::Result;
 
-  /// `efficacy` above 0: photometric arrays are added [lm/W].
-  RadiometricResults(int bands, double efficacy, std::string filter, std::string options)
+  /// `efficacy` above 0: photometric arrays are added [lm/W]. `wavelengths` [nm] of the bands: these
+  /// arrays are then weighted by V(lambda), and the outputs state the wavelengths; may be empty.
+  RadiometricResults(int bands, double efficacy, std::vector<double> wavelengths,
+    std::string filter, std::string options)
     : Bands(bands)
     , Efficacy(efficacy)
+    , Wavelengths(std::move(wavelengths))
     , Filter(std::move(filter))
     , Options(std::move(options))
   {
@@ -46,6 +49,7 @@ private:
 
   int Bands;
   double Efficacy;
+  std::vector<double> Wavelengths;
   std::string Filter;
   std::string Options;
 };

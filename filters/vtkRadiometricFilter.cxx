@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiometricFilter.h"
 
+#include "BandWavelengths.h"
 #include "ControllerCommunicator.h"
 #include "RadiometricJob.h"
 #include "RadiometricResults.h"
@@ -235,9 +236,11 @@ int vtkRadiometricFilter::RequestData(
     adapter.SetFrames(object,
       { Vector(this->CameraPosition), Vector(this->CameraFocalPoint), Vector(this->CameraViewUp) });
     adapter.AddSurface(input);
+    std::vector<vtkDataObject*> stated{ input }; // what may state Wavelengths
     for (int k = 0; k < inputs[1]->GetNumberOfInformationObjects(); ++k)
     {
-      adapter.AddLights(vtkDataObject::GetData(inputs[1], k));
+      stated.push_back(vtkDataObject::GetData(inputs[1], k));
+      adapter.AddLights(stated.back());
     }
     for (int k = 0; k < inputs[2]->GetNumberOfInformationObjects(); ++k)
     {
@@ -246,6 +249,7 @@ int vtkRadiometricFilter::RequestData(
     adapter.FurtherArrays = this->CellArraysRead();
     adapter.Gather(ranks);
     const radiometry::Scene scene = adapter.Build();
+    const std::vector<double> wavelengths = CheckedWavelengths(stated, scene.Optics.Bands);
 
     FilterMonitor monitor(this);
     Job job{ scene, {}, {}, true, &monitor };
@@ -282,7 +286,8 @@ int vtkRadiometricFilter::RequestData(
     }
     options << (scene.GlobalAmbient.empty() ? "0" : "");
     const RadiometricResults writer(scene.Optics.Bands,
-      this->Photometric ? this->LuminousEfficacy : 0.0, this->GetClassName(), options.str());
+      this->Photometric ? this->LuminousEfficacy : 0.0,
+      wavelengths, this->GetClassName(), options.str());
     writer.WriteSurface(result,
       result.Pieces.Size() > 0 ? RefineSurface(adapter, scene, this->MetersPerUnit, result.Pieces)
                                : adapter.OwnBlocks(),

@@ -256,6 +256,31 @@ Triple XyzToLinearRec709(const Triple& xyz) { return Times(XyzToRgb, xyz); }
 
 Triple LinearRec709ToXyz(const Triple& rgb) { return Times(RgbToXyz, rgb); }
 
+Triple FitGamut(const Triple& rgb, Gamut gamut)
+{
+  const double least = std::min({ rgb[0], rgb[1], rgb[2] });
+  if (gamut == Gamut::Keep || !(least < 0.0))
+  {
+    return rgb;
+  }
+  const double luminance = LinearRec709ToXyz(rgb)[1];
+  Triple result{};
+  for (int c = 0; c < 3; ++c)
+  {
+    if (gamut == Gamut::Clip)
+    {
+      result[c] = std::max(0.0, rgb[c]);
+    }
+    else if (luminance > 0.0)
+    {
+      // The least channel comes to 0; rounding must not leave it below.
+      const double part = luminance / (luminance - least);
+      result[c] = std::max(0.0, luminance + part * (rgb[c] - luminance));
+    }
+  }
+  return result;
+}
+
 SpectralColor::SpectralColor(
   const double* wavelengths, int bands, BandValues values, Illuminant illuminant)
 {

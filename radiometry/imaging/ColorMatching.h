@@ -39,6 +39,15 @@ double IlluminantD65(double wavelength);
 Triple XyzToLinearRec709(const Triple& xyz);
 Triple LinearRec709ToXyz(const Triple& rgb);
 
+/// What to do with a colour that Rec.709 cannot show, which has a negative channel.
+enum class Gamut
+{
+  Keep = 0,       ///< as it is: scene-linear light
+  Clip = 1,       ///< negative channels become 0: brighter than it was
+  Desaturate = 2, ///< mixed with the grey of its luminance until no channel is negative
+};
+Triple FitGamut(const Triple& rgb, Gamut gamut);
+
 /// What the N numbers of a spectral array say.
 enum class BandValues
 {

@@ -144,8 +144,8 @@ TEST(ColorMatching, PublishedWhites)
   const std::vector<double> equal(grid.size(), 1.0);
   ExpectChromaticity(color.ToXyz(equal.data()), 1.0 / 3, 1.0 / 3, 2e-5);
   // D65: CIE 015, (0.31272, 0.32903).
-  const auto daylight = Sampled(grid, IlluminantD65);
-  ExpectChromaticity(color.ToXyz(daylight.data()), 0.31272, 0.32903, 1e-5);
+  const auto sky = Sampled(grid, IlluminantD65);
+  ExpectChromaticity(color.ToXyz(sky.data()), 0.31272, 0.32903, 1e-5);
   // A: Planck's law at 2848 K with the old c2 = 1.435e-2 m K, (0.44758, 0.40745); with today's c2 it
   // is a black body of 2855.5 K.
   const auto a = Sampled(grid, [](double w) { return Planck(w, 2848, 1.435e-2); });
@@ -154,7 +154,7 @@ TEST(ColorMatching, PublishedWhites)
   ExpectChromaticity(color.ToXyz(body.data()), 0.4476, 0.4074, 1e-4);
   // Bands of 5 nm smooth the functions a little.
   const SpectralColor bands = Bands(grid, BandValues::PerNanometre);
-  ExpectChromaticity(bands.ToXyz(daylight.data()), 0.31272, 0.32903, 5e-5);
+  ExpectChromaticity(bands.ToXyz(sky.data()), 0.31272, 0.32903, 5e-5);
   ExpectChromaticity(bands.ToXyz(a.data()), 0.44758, 0.40745, 5e-5);
 }
 
@@ -396,4 +396,18 @@ TEST(SpectralColor, OneRuleForAnyNumberOfBands)
     }
   }
   ExpectTriple(sum, four.ToRgb(values), 1e-12);
+}
+
+TEST(ColorMatching, GamutIsKeptClippedOrDesaturated)
+{
+  const Triple green = { -0.5, 1.0, -0.1 };
+  ExpectTriple(FitGamut(green, Gamut::Keep), green, 0);
+  ExpectTriple(FitGamut(green, Gamut::Clip), { 0, 1, 0 }, 0);
+  const Triple pale = FitGamut(green, Gamut::Desaturate);
+  EXPECT_NEAR(LinearRec709ToXyz(pale)[1], LinearRec709ToXyz(green)[1], 1e-15);
+  EXPECT_EQ(*std::min_element(pale.begin(), pale.end()), pale[0]);
+  EXPECT_NEAR(pale[0], 0.0, 1e-15);
+  const Triple inside = { 0.0, 2.0, 0.3 };
+  ExpectTriple(FitGamut(inside, Gamut::Desaturate), inside, 0);
+  ExpectTriple(FitGamut({ -1, 0.1, 0.1 }, Gamut::Desaturate), { 0, 0, 0 }, 0);
 }

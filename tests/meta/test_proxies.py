@@ -33,6 +33,7 @@ NAMES = {
     "vtkRadiometricSurfaceRepresentation": None,  # label free: a representation
     "vtkRadiometricLightRepresentation": None,
     "vtkRadiometricView": "Radiometric View",
+    "vtkSpectrumToRGBFilter": "Spectrum to RGB",
     "vtkOpenColorIOPass": None,  # reached through the view
     "vtkOpenColorIOImageFilter": "OpenColorIO Transform",
     "vtkOpenEXRWriter": None,  # a writer has no label of its own

@@ -54,6 +54,13 @@ def provide(prop, scene, owner=None):
     if owner == "vtkRadiometricStatistics":  # wants results
         return simple.Irradiance(
             Input=scene, Lights=simple.PointLight(Position=[0.1, 0.2, 1.5], Intensity=10.0))
+    if owner == "vtkSpectrumToRGBFilter":  # wants bands and their wavelengths
+        return simple.ProgrammableFilter(
+            Input=scene, CopyArrays=1,
+            Script="import numpy\n"
+                   "n = output.GetNumberOfPoints()\n"
+                   "output.PointData.append(numpy.ones((n, 4)), 'Irradiance')\n"
+                   "output.FieldData.append(numpy.array([450.0, 520, 580, 640]), 'Wavelengths')")
     if name == "Lights":
         return simple.PointLight(Position=[0.1, 0.2, 1.5], Intensity=10.0)
     if prop.find("Hints/Optional") is not None and name != "Input":
