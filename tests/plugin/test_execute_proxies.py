@@ -54,13 +54,6 @@ def provide(prop, scene, owner=None):
     if owner == "vtkRadiometricStatistics":  # wants results
         return simple.Irradiance(
             Input=scene, Lights=simple.PointLight(Position=[0.1, 0.2, 1.5], Intensity=10.0))
-    if owner == "vtkSpectrumToRGBFilter":  # wants bands and their wavelengths
-        return simple.ProgrammableFilter(
-            Input=scene, CopyArrays=1,
-            Script="import numpy\n"
-                   "n = output.GetNumberOfPoints()\n"
-                   "output.PointData.append(numpy.ones((n, 4)), 'Irradiance')\n"
-                   "output.FieldData.append(numpy.array([450.0, 520, 580, 640]), 'Wavelengths')")
     if name == "Lights":
         return simple.PointLight(Position=[0.1, 0.2, 1.5], Intensity=10.0)
     if prop.find("Hints/Optional") is not None and name != "Input":
@@ -121,6 +114,8 @@ with tempfile.TemporaryDirectory() as folder:
                 proxy.FileName = files[".exr"]
             elif element.get("class") == "vtkPhotometricFileReader":
                 proxy.FileName = ies
+            elif element.get("class") == "vtkSpectrumToRGBFilter":
+                proxy.Wavelengths = [450.0, 550.0, 650.0]  # of the normals, for want of a spectrum
             elif proxy.GetProperty("FileName") is not None:
                 proxy.FileName = gltf
             for prop in input_properties(element, known):
