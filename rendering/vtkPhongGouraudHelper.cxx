@@ -157,9 +157,19 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
       needs.insert(feature);
     }
     const bool lights = Has(needs, "Lights");
-    const bool specular = lights && (materials ? this->SpecularMaterials : either([](vtkProperty* p) {
+    const bool every = mapper->EveryEffect && lights;
+    if (every)
+    {
+      for (const char* effect : { "Ambient", "Emission", "Directional", "Point", "Spot",
+             "LightAmbient", "LightSpecular", "Attenuation", "SpotExponent", "SmoothEdge" })
+      {
+        needs.insert(effect);
+      }
+      needs.erase("InverseSquare");
+    }
+    const bool specular = every || (lights && (materials ? this->SpecularMaterials : either([](vtkProperty* p) {
       return p->GetSpecular() > 0.0 && !IsBlack(p->GetSpecularColor());
-    }));
+    })));
     need(specular, "Specular");
     need(Has(needs, "Point") || Has(needs, "Spot"), "Finite");
     if (!Has(needs, "Ambient"))

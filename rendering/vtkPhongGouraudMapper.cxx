@@ -38,6 +38,7 @@ void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)
     this->SetFieldArrayName(own->FieldArrayName.c_str());
     this->SetFieldAssociation(own->FieldAssociation);
     this->SetFieldScale(own->FieldScale);
+    this->SetEveryEffect(own->EveryEffect);
   }
   this->Superclass::ShallowCopy(other);
 }
@@ -117,6 +118,7 @@ void vtkPhongGouraudMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FieldArrayName: " << this->FieldArrayName << "\n";
   os << indent << "FieldAssociation: " << this->FieldAssociation << "\n";
   os << indent << "FieldScale: " << this->FieldScale << "\n";
+  os << indent << "EveryEffect: " << this->EveryEffect << "\n";
   os << indent << "LightData: " << this->LightData.Get() << "\n";
   os << indent << "ShaderFeatures: " << this->ShaderFeatureText << "\n";
 }

@@ -226,6 +226,16 @@ public:
   const char* GetShaderFeatures() { return this->ShaderFeatureText.c_str(); }
   ///@}
 
+  ///@{
+  /**
+   * Off (default): shaders hold what the scene needs. On: the code of every effect of lights and
+   * materials, for comparing their cost; the picture stays the same.
+   */
+  vtkSetMacro(EveryEffect, bool);
+  vtkGetMacro(EveryEffect, bool);
+  vtkBooleanMacro(EveryEffect, bool);
+  ///@}
+
   /**
    * Whether this mapper's colours are light (scene-linear), which a display transform has to encode.
    * False: they are a display's own (a colour map), which no transform may touch.
@@ -268,6 +278,7 @@ protected:
   std::string FieldArrayName;
   int FieldAssociation = -1;
   double FieldScale = 1.0;
+  bool EveryEffect = false;
   vtkSmartPointer<vtkPolyData> LightData;
 
   vtkTimeStamp BufferTime;     // of the last change that needs other buffers

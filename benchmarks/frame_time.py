@@ -1,0 +1,214 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Question: what does a frame of vtkPhongGouraudMapper cost beside VTK's stock mapper?
+
+A sphere of 1e5 triangles fills a square window, off screen, in the 8-bit window and in a float target;
+lights are vtkLights of one kind (directional, point with inverse-square fall-off, spot of 40 degrees with
+an exponent) and both mappers light it from the same ones. Rows:
+
+  stock       vtkPolyDataMapper, VTK's Phong. It computes a highlight (R.V) for every light, whether or not
+              the material has one, two-sided, local viewer, no emission, one number of ambient.
+  phong       ours, the legacy Phong model, two-sided, local viewer: the effects of the picture of "stock"
+  physical    ours with its default model
+  everything  ours, Phong, with the code of every effect in the shader (EveryEffect) though no more is seen
+  gouraud, flat, auto   ours, the same model as "phong"
+
+The camera turns by a degree a frame, so that whatever depends on it is done anew. Rows of one case take
+turns, frame by frame; the figure is the lower quartile over the frames of the processor's time of the whole
+process (llvmpipe's threads included), which other programs disturb less than the clock; the clock's is
+given too. `setup` is the clock's time of the first frame: shaders are generated, compiled and buffers are
+filled. `cpu` is a window of 2 x 2 pixels with 12 triangles, where nothing but the work of the processor
+between frames is left.
+
+    ./run --python benchmarks/frame_time.py [--frames 40] [--size 800] [--out frame-time]
+
+Mesa's llvmpipe draws on the processor, so a fragment's arithmetic costs as much as its text says; on a
+graphics card fewer of these differences show. Writes benchmarks/results/frame-time.json.
+"""
+import argparse
+import math
+import os
+import sys
+import time
+
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkLight,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+)
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+from vtkradiometry.vtkRadiometryRendering import vtkLinearFloatPass, vtkPhongGouraudMapper
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from radiosity.record import provenance, write  # noqa: E402
+
+KINDS = ("directional", "point", "spot")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--frames", type=int, default=40)
+    parser.add_argument("--size", type=int, default=800)
+    parser.add_argument("--lights", default="1,8,100")
+    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--materials", default="matte,gloss")
+    parser.add_argument("--targets", default="window,float")
+    parser.add_argument("--rows", default="stock,phong,physical,everything,gouraud,flat,auto")
+    parser.add_argument("--many", default="500,2000", help="numbers of point lights for ours alone")
+    parser.add_argument("--out", default="frame-time")
+    return parser.parse_args()
+
+
+def sphere(triangles=100000):
+    source = vtkSphereSource()
+    n = math.ceil(math.sqrt(triangles / 2.0)) + 1
+    source.SetThetaResolution(n)
+    source.SetPhiResolution(n + 1)
+    source.Update()
+    return source.GetOutput()
+
+
+def cube():
+    source = vtkCubeSource()
+    normals = vtkPolyDataNormals()
+    normals.SetInputConnection(source.GetOutputPort())
+    normals.Update()
+    return normals.GetOutput()
+
+
+def light(kind, i, count):
+    """Spread over the upper half in a spiral, at a distance of 2 from the centre."""
+    z = (i + 0.5) / count
+    phi = 2.399963 * i
+    s = math.sqrt(1.0 - z * z)
+    result = vtkLight()
+    result.SetLightTypeToSceneLight()
+    result.SetPosition(2 * s * math.cos(phi), 2 * z, 2 * s * math.sin(phi))
+    result.SetFocalPoint(0, 0, 0)
+    result.SetIntensity((1.0 if kind == "directional" else 3.0) / count)
+    if kind != "directional":
+        result.SetPositional(True)
+        result.SetAttenuationValues(0, 0, 1)
+        result.SetConeAngle(40 if kind == "spot" else 90)
+        result.SetExponent(5 if kind == "spot" else 0)
+    return result
+
+
+class Stage:
+    """A window with one actor drawn one way."""
+
+    def __init__(self, row, surface, kind, count, material, target, size):
+        self.mapper = vtkPolyDataMapper() if row == "stock" else vtkPhongGouraudMapper()
+        self.mapper.SetInputDataObject(surface)
+        if row != "stock":
+            self.mapper.SetShading({"gouraud": 1, "flat": 0, "auto": 3}.get(row, 2))
+            self.mapper.SetReflectionModel(2 if row == "physical" else 1)
+            self.mapper.SetEveryEffect(row == "everything")
+        actor = vtkActor()
+        actor.SetMapper(self.mapper)
+        actor.GetProperty().SetInterpolationToPhong()
+        actor.GetProperty().SetDiffuseColor(0.8, 0.7, 0.6)
+        if material == "gloss":
+            actor.GetProperty().SetSpecular(0.5)
+            actor.GetProperty().SetSpecularPower(30)
+        self.renderer = vtkRenderer()
+        self.renderer.AddActor(actor)
+        self.renderer.AutomaticLightCreationOff()
+        for i in range(count):
+            self.renderer.AddLight(light(kind, i, count))
+        if target == "float":
+            self.renderer.SetPass(vtkLinearFloatPass())
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(size, size)
+        self.window.AddRenderer(self.renderer)
+        camera = self.renderer.GetActiveCamera()
+        camera.SetPosition(0, 0.4, 1.75)
+        camera.SetFocalPoint(0, 0, 0)
+        camera.SetViewAngle(35)
+        self.renderer.ResetCameraClippingRange()
+        begin = time.perf_counter()
+        self.draw()
+        self.setup = time.perf_counter() - begin
+        self.draw()
+        self.clock, self.processor = [], []
+
+    def draw(self):
+        self.window.Render()
+        self.window.WaitForCompletion()
+
+    def frame(self):
+        self.renderer.GetActiveCamera().Azimuth(1)
+        clock, processor = time.perf_counter(), time.process_time()
+        self.draw()
+        self.processor.append(time.process_time() - processor)
+        self.clock.append(time.perf_counter() - clock)
+
+    def result(self):
+        quartile = lambda values: sorted(values)[len(values) // 4]  # noqa: E731
+        out = {"processor": quartile(self.processor), "clock": quartile(self.clock),
+               "setup": self.setup}
+        if isinstance(self.mapper, vtkPhongGouraudMapper):
+            out["features"] = self.mapper.GetShaderFeatures()
+            out["builds"] = self.mapper.GetNumberOfShaderBuilds()
+            out["shading"] = ("flat", "gouraud", "phong")[self.mapper.GetShadingUsed()]
+        return out
+
+
+def measure(rows, surface, kind, count, material, target, size, frames):
+    stages = {row: Stage(row, surface, kind, count, material, target, size) for row in rows}
+    for _ in range(frames):
+        for stage in stages.values():
+            stage.frame()
+    results = {row: stage.result() for row, stage in stages.items()}
+    for stage in stages.values():
+        stage.window.Finalize()
+    if "stock" in results:
+        for row in results.values():
+            row["times stock"] = row["processor"] / results["stock"]["processor"]
+    return {"kind": kind, "lights": count, "material": material, "target": target, "rows": results}
+
+
+def show(case):
+    print(f'{case["kind"]:12}{case["lights"]:5} {case["material"]:6}{case["target"]:7}' + "  ".join(
+        f'{row} {1e3 * r["processor"]:.2f}' + (f' ({r["times stock"]:.2f})' if "times stock" in r else "")
+        for row, r in case["rows"].items()), file=sys.stderr, flush=True)
+
+
+def main():
+    options = arguments()
+    surface = sphere()
+    probe = Stage("stock", cube(), "directional", 1, "matte", "window", 2)
+    about = next((line for line in probe.window.ReportCapabilities().splitlines()
+                  if "renderer string" in line), "").split(":")[-1].strip()
+    rows = options.rows.split(",")
+    cases = []
+    for kind in options.kinds.split(","):
+        for count in map(int, options.lights.split(",")):
+            for material in options.materials.split(","):
+                for target in options.targets.split(","):
+                    cases.append(measure(
+                        rows, surface, kind, count, material, target, options.size, options.frames))
+                    show(cases[-1])
+    for count in map(int, filter(None, options.many.split(","))):
+        cases.append(measure(["phong", "gouraud", "auto"], surface, "point", count, "gloss", "window",
+                             options.size, max(3, options.frames // 8)))
+        show(cases[-1])
+    cpu = []
+    for count in map(int, options.lights.split(",")):
+        cpu.append(measure([r for r in rows if r in ("stock", "phong", "auto")], cube(), "point", count,
+                           "gloss", "window", 2, 10 * options.frames))
+        show(cpu[-1])
+    write(options.out, {"question": "a frame of vtkPhongGouraudMapper beside VTK's mapper",
+                        **provenance(), "renderer": about, "size": options.size,
+                        "triangles": surface.GetNumberOfPolys(), "frames": options.frames,
+                        "cores": len(os.sched_getaffinity(0)), "cases": cases, "cpu": cpu})
+
+
+if __name__ == "__main__":
+    main()
