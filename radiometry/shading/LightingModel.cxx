@@ -70,6 +70,10 @@ double LightFactor(const DisplayLight& light, double r, const Vec3& toPoint)
   }
   double factor =
     1.0 / (light.Attenuation[0] + r * (light.Attenuation[1] + r * light.Attenuation[2]));
+  if (!std::isfinite(factor))
+  {
+    return 0.0;
+  }
   if (light.CosCutoff > -1.0)
   {
     const double cosine = Dot(Direction(light.SpotDirection), toPoint);

@@ -94,7 +94,9 @@ double SpecularLobe(
   ReflectionModel reflection, const Vec3& N, const Vec3& L, const Vec3& V, double shininess);
 
 /// Fall-off and cone of a light at distance r (m) in the direction `toPoint` (unit, from the light
-/// to the point): spot/(a + b r + c r^2). 1 for directional lights.
+/// to the point): spot/(a + b r + c r^2). 1 for directional lights, whatever their cone; 0 where the
+/// fall-off is not finite (a + b r + c r^2 = 0).
+///   Model   OpenGL 2.1 but for the cone of directional lights, which it applies
 double LightFactor(const DisplayLight& light, double r, const Vec3& toPoint);
 
 /// The sums over the enabled lights at a sample, about its Normal as it stands (no side is chosen).

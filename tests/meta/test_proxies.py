@@ -16,6 +16,7 @@ import source_tree
 NAMES = {
     "vtkIrradianceFilter": "Irradiance",
     "vtkRadiosityFilter": "Radiosity",
+    "vtkVertexNormalsFilter": "Vertex Normals",
     "vtkViewFactorFilter": "View Factors",
     "vtkRadianceFilter": "Radiance",
     "vtkPointLightSource": "Point Light",
