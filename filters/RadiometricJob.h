@@ -11,6 +11,7 @@
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@ struct vtkRadiometricFilter::Job
   const radiometry::Communicator* Ranks = nullptr;
   int RanksHere = 1; // of them on this machine, which share its memory
   int Threads = 0;   // NumberOfThreads, or this process's share of the machine's; 0: all
+  bool WantVisibility = false; // how much of each light arrives
 };
 
 /// What it computed.
@@ -56,5 +58,15 @@ struct vtkRadiometricFilter::Result
   std::vector<std::pair<std::string, double>> ErrorParts; // mean over the surface, W/m^2
   std::string Outcome;
   std::string Method; // and why
+  /// Shares of lights, without unit and error: values x components.
+  struct Shares
+  {
+    std::string Name;
+    std::vector<float> Values;
+  };
+  std::vector<Shares> CellShares;
+  std::vector<Shares> PointShares;
+  /// Type, position and direction of each light as its input has them: those the shares are of.
+  std::vector<std::array<double, 7>> LightKeys;
   radiometry::ShadowPieces Pieces; // into which cells were cut; none: they were not
 };

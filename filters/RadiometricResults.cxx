@@ -13,6 +13,7 @@
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -175,6 +176,44 @@ void RadiometricResults::AddArrays(const std::vector<Result::Quantity>& quantiti
   }
 }
 
+void AddShares(std::array<radiometry::LightShares, 2>& computed,
+  std::vector<vtkRadiometricFilter::Result::Shares>& shares)
+{
+  for (int side = 0; side < 2; ++side)
+  {
+    if (!computed[side].empty())
+    {
+      shares.push_back({ names::LightVisibility + std::string(side == 1 ? names::BackSuffix : ""),
+        std::move(computed[side]) });
+    }
+  }
+}
+
+void RadiometricResults::AddLightShares(const std::vector<Result::Shares>& shares,
+  std::size_t lights, std::size_t first, const std::vector<std::int32_t>& numbers,
+  vtkIdType count, vtkFieldData* data)
+{
+  for (const Result::Shares& side : shares)
+  {
+    vtkNew<vtkFloatArray> array;
+    array->SetName(side.Name.c_str());
+    array->SetNumberOfComponents(static_cast<int>(lights));
+    array->SetNumberOfTuples(count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const std::ptrdiff_t at = numbers.empty()
+        ? static_cast<std::ptrdiff_t>(first) + i
+        : static_cast<std::ptrdiff_t>(numbers[static_cast<std::size_t>(i)]);
+      for (std::size_t k = 0; k < lights; ++k)
+      {
+        array->SetTypedComponent(i, static_cast<int>(k),
+          at < 0 ? 0.0f : side.Values[static_cast<std::size_t>(at) * lights + k]);
+      }
+    }
+    data->AddArray(array);
+  }
+}
+
 void RadiometricResults::WriteSurface(const Result& result,
   const std::vector<SceneAdapter::Block>& blocks, const SurfacePoints& points,
   vtkDataObject* output, vtkDataObject* input) const
@@ -190,12 +229,16 @@ void RadiometricResults::WriteSurface(const Result& result,
     {
       this->AddArrays(result.Points, carrier.First, carrier.Numbers, leaf->GetNumberOfPoints(),
         leaf->GetPointData());
+      AddLightShares(result.PointShares, result.LightKeys.size(), carrier.First, carrier.Numbers,
+        leaf->GetNumberOfPoints(), leaf->GetPointData());
       leaf->GetPointData()->SetActiveScalars(names::Irradiance);
     }
     else
     {
       this->AddArrays(
         result.Cells, block.FirstCell, block.Numbers, block.Cells, leaf->GetCellData());
+      AddLightShares(result.CellShares, result.LightKeys.size(), block.FirstCell, block.Numbers,
+        block.Cells, leaf->GetCellData());
       leaf->GetCellData()->SetActiveScalars(names::Irradiance);
     }
     this->AddFieldData(result, leaf);
@@ -219,6 +262,22 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   }
   AddWavelengths(this->Wavelengths, output);
   vtkFieldData* data = output->GetFieldData();
+  const auto& shares = result.Cells.empty() ? result.PointShares : result.CellShares;
+  for (const Result::Shares& side : shares)
+  {
+    units.push_back(side.Name + " [1]");
+  }
+  if (!shares.empty())
+  {
+    vtkNew<vtkDoubleArray> lights;
+    lights->SetName(names::LightVisibilityLights);
+    lights->SetNumberOfComponents(7);
+    for (const std::array<double, 7>& key : result.LightKeys)
+    {
+      lights->InsertNextTuple(key.data());
+    }
+    data->AddArray(lights);
+  }
   AddStrings(data, "RadiometryUnits", units);
   AddStrings(data, "RadiometryVersion", { VTKRADIOMETRY_VERSION });
   AddStrings(data, "RadiometryOptions", { this->Filter + ": " + this->Options });

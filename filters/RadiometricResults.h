@@ -4,6 +4,9 @@
 #include "RadiometricJob.h"
 #include "SceneAdapter.h"
 
+#include "radiometry/irradiance/LightVisibility.h"
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,6 +18,10 @@ class vtkDataObject;
 class vtkFieldData;
 class vtkPolyData;
 class vtkTable;
+
+/// Hands the shares of lights of front and back over, where there are any.
+void AddShares(std::array<radiometry::LightShares, 2>& computed,
+  std::vector<vtkRadiometricFilter::Result::Shares>& shares);
 
 /// Writes what a simulating filter computed onto its outputs.
 class RadiometricResults
@@ -45,6 +52,9 @@ private:
   /// `first`.
   void AddArrays(const std::vector<Result::Quantity>& quantities, std::size_t first,
     const std::vector<std::int32_t>& numbers, vtkIdType count, vtkFieldData* data) const;
+  static void AddLightShares(const std::vector<Result::Shares>& shares, std::size_t lights,
+    std::size_t first, const std::vector<std::int32_t>& numbers, vtkIdType count,
+    vtkFieldData* data);
   void AddFieldData(const Result& result, vtkDataObject* output) const;
 
   int Bands;

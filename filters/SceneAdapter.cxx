@@ -408,6 +408,7 @@ radiometry::Scene SceneAdapter::Build()
   this->ReadTransmittance(cellOfOccluder, scene);
   this->ReadAmbient(scene);
   LightsOnce once;
+  this->Keys.clear();
   for (const Block& block : this->Lights)
   {
     for (const radiometry::LightRecord& record :
@@ -416,6 +417,12 @@ radiometry::Scene SceneAdapter::Build()
       scene.Lights.push_back(
         radiometry::ToLight(radiometry::PlaceLight(record, this->ObjectTransform, this->View),
           this->MetersPerUnit, scene.Origin, scene.Lights.size()));
+      const radiometry::Vec3& p =
+        record.Polygon.empty() ? record.Position : record.Polygon.front();
+      const radiometry::Vec3 d =
+        record.Polygon.empty() ? record.Direction : radiometry::Vec3{};
+      this->Keys.push_back(
+        { static_cast<double>(record.Type), p.x, p.y, p.z, d.x, d.y, d.z });
     }
   }
   double rounding = 0.0;

@@ -84,6 +84,9 @@ public:
   bool IsGathered() const { return this->Gathered; }
   /// Those of this process, which get results.
   const std::vector<Block>& OwnBlocks() const { return this->Gathered ? this->Own : this->Surface; }
+  /// Of each light of the scene that was made: type, position (area: first corner), direction, as
+  /// its input has them.
+  const std::vector<std::array<double, 7>>& LightKeys() const { return this->Keys; }
   /// Cells that got no triangle: verts, lines, and those without area.
   std::size_t CellsWithoutArea() const { return this->Empty; }
 
@@ -109,6 +112,7 @@ private:
   std::vector<Block> Occluders;
   std::vector<Block> Lights;
   std::size_t Empty = 0;
+  std::vector<std::array<double, 7>> Keys;
   radiometry::Affine ObjectTransform{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
   radiometry::ViewFrame View;
   bool OwnTransform = false; // ObjectTransform is the surface's own

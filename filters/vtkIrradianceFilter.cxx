@@ -2,6 +2,7 @@
 #include "vtkIrradianceFilter.h"
 
 #include "RadiometricJob.h"
+#include "RadiometricResults.h"
 #include "radiometry/irradiance/IrradianceSimulation.h"
 
 #include "vtkObjectFactory.h"
@@ -22,6 +23,7 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   options.Ranks = job.Ranks;
   options.Cells = job.WantCells;
   options.Switches = job.Switches;
+  options.LightVisibility = job.WantVisibility;
   options.RefineShadowBoundaries = this->RefineShadowBoundaries && job.WantCells;
   options.PiecesPerCell = static_cast<std::size_t>(this->MaximumPiecesPerCell);
   if (this->RefineShadowBoundaries && !job.WantCells)
@@ -46,6 +48,8 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
         std::move(computed.Points[side].Errors) });
     }
   }
+  AddShares(computed.CellVisibility, result.CellShares);
+  AddShares(computed.PointVisibility, result.PointShares);
   result.Convergence = std::move(computed.Convergence);
   result.Effects = std::move(computed.Effects);
   result.Outcome = computed.Outcome;

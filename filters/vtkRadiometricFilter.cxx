@@ -268,7 +268,9 @@ int vtkRadiometricFilter::RequestData(
     job.WantCells = this->SampleLocation == CELLS;
 
     Result result;
+    job.WantVisibility = this->LightVisibility;
     this->Simulate(job, result);
+    result.LightKeys = adapter.LightKeys();
     AddDose(result.Cells, this->ExposureTime);
     AddDose(result.Points, this->ExposureTime);
 
@@ -334,6 +336,7 @@ void vtkRadiometricFilter::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "TwoSided: " << this->TwoSided << '\n'
      << indent << "MetersPerUnit: " << this->MetersPerUnit << '\n'
      << indent << "ExposureTime: " << this->ExposureTime << " s\n"
+     << indent << "LightVisibility: " << this->LightVisibility << '\n'
      << indent << "GlobalAmbient: " << this->GlobalAmbient << " W/m^2\n"
      << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
 }

@@ -145,6 +145,15 @@ public:
   vtkMultiProcessController* GetController();
   ///@}
   ///@{
+  /// Whether LightVisibility is written: cells or points x lights in the order of their inputs, at
+  /// most 64, the share in [0, 1] of each light's unoccluded irradiance that arrives; LightVisibilityBack
+  /// where surfaces are two-sided; and field data LightVisibilityLights, which lights they are. The
+  /// mapper shadows lights and highlights by it. Costs a run with each light alone. Default off.
+  vtkSetMacro(LightVisibility, bool);
+  vtkGetMacro(LightVisibility, bool);
+  vtkBooleanMacro(LightVisibility, bool);
+  ///@}
+  ///@{
   /// Irradiance that every point gets from all around, in each band, never in shadow [W/m^2].
   /// Default 0. At least 0. Field arrays GlobalAmbient of the lights add to it.
   vtkSetMacro(GlobalAmbient, double);
@@ -227,6 +236,7 @@ protected:
   double LuminousEfficacy = 683.002;
   double ExposureTime = 0.0;
   double GlobalAmbient = 0.0;
+  bool LightVisibility = false;
   double ObjectTransform[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
   double CameraPosition[3] = { 0.0, 0.0, 0.0 };
   double CameraFocalPoint[3] = { 0.0, 0.0, 0.0 };

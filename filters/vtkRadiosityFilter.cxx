@@ -2,6 +2,7 @@
 #include "vtkRadiosityFilter.h"
 
 #include "RadiometricJob.h"
+#include "RadiometricResults.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/Units.h"
@@ -88,6 +89,7 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   }
   options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);
   options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
+  options.LightVisibility = job.WantVisibility;
   options.Threads = job.Threads;
   options.Ranks = job.Ranks;
   const std::string file = this->OperatorFile ? this->OperatorFile : "";
@@ -120,6 +122,8 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   result.ErrorParts = { { "Error: direct light", budget.Direct },
     { "Error: form factors", budget.FormFactors }, { "Error: visibility", budget.Visibility },
     { "Error: discretisation", budget.Discretisation }, { "Error: solver", budget.Solver } };
+  AddShares(computed.CellVisibility, result.CellShares);
+  AddShares(computed.PointVisibility, result.PointShares);
   result.Convergence = std::move(computed.Cells.Convergence);
   result.Effects = std::move(computed.Effects);
   result.Outcome = computed.Cells.Outcome;

@@ -34,7 +34,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
   DirectResult& result)
 {
   const ConvergenceRecord clock;
-  const AreaSources sources(scene, options.Emission);
+  const AreaSources sources(scene, options.Emission, options.OnlyLight);
   if (sources.Size() == 0 || receivers.empty())
   {
     return;

@@ -39,12 +39,14 @@ bool IsConvex(const std::vector<Vec3>& corners, const Vec3& n)
 
 } // namespace
 
-AreaSources::AreaSources(const Scene& scene, bool emission)
+AreaSources::AreaSources(const Scene& scene, bool emission, std::ptrdiff_t onlyLight)
   : BandCount(scene.Optics.Bands)
 {
-  for (const Light& light : scene.Lights)
+  for (std::size_t k = 0; k < scene.Lights.size(); ++k)
   {
-    if (!light.Enabled || light.Type != LightType::Area)
+    const Light& light = scene.Lights[k];
+    const bool counts = onlyLight < 0 || static_cast<std::size_t>(onlyLight) == k;
+    if (!counts || !light.Enabled || light.Type != LightType::Area)
     {
       continue;
     }

@@ -7,6 +7,7 @@
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -41,8 +42,9 @@ class AreaSources
 {
 public:
   /// `emission`: the scene's emitting surfaces too, each side of two-sided ones.
+  /// `onlyLight`: the place of the one light that counts; -1: all.
   /// Fails: InputError for a polygon that is not flat or crosses itself.
-  AreaSources(const Scene& scene, bool emission);
+  AreaSources(const Scene& scene, bool emission, std::ptrdiff_t onlyLight = -1);
   explicit AreaSources(const EmitterSet& emitters);
 
   std::size_t Size() const { return this->Sources.size(); }

@@ -9,9 +9,10 @@ namespace radiometry
 BeamLights::BeamLights(const Scene& scene, const OcclusionScene& occluders,
   const DirectOptions& options, bool shadows, const StageProgress& stage)
 {
-  for (const Light& light : scene.Lights)
+  for (std::size_t k = 0; k < scene.Lights.size(); ++k)
   {
-    if (light.Enabled && light.Type != LightType::Area && light.Type != LightType::Environment &&
+    const Light& light = scene.Lights[k];
+    if (options.Takes(k) && light.Enabled && light.Type != LightType::Area && light.Type != LightType::Environment &&
       Magnitude(light) > 0.0)
     {
       this->Sources.push_back(

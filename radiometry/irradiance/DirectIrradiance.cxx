@@ -18,27 +18,36 @@ namespace
 {
 
 /// Whether the lights of a kind, or emitting surfaces, take part, and so need time.
-bool AnyBeam(const Scene& scene)
+template <typename Kind>
+bool AnyLight(const Scene& scene, const DirectOptions& options, const Kind& isOfKind)
 {
-  return std::any_of(scene.Lights.begin(), scene.Lights.end(), [](const Light& l) {
-    return l.Enabled && l.Type != LightType::Area && l.Type != LightType::Environment;
-  });
+  for (std::size_t k = 0; k < scene.Lights.size(); ++k)
+  {
+    if (options.Takes(k) && scene.Lights[k].Enabled && isOfKind(scene.Lights[k].Type))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+bool AnyBeam(const Scene& scene, const DirectOptions& options)
+{
+  return AnyLight(scene, options,
+    [](LightType type) { return type != LightType::Area && type != LightType::Environment; });
 }
 bool AnyArea(const Scene& scene, const DirectOptions& options)
 {
   const auto lit = [](const std::vector<double>& exitance) {
     return std::any_of(exitance.begin(), exitance.end(), [](double m) { return m > 0.0; });
   };
-  return std::any_of(scene.Lights.begin(), scene.Lights.end(),
-           [](const Light& l) { return l.Enabled && l.Type == LightType::Area; }) ||
+  return AnyLight(scene, options, [](LightType type) { return type == LightType::Area; }) ||
     (options.Emission &&
       (lit(scene.Optics.EmittedExitance[0]) || lit(scene.Optics.EmittedExitance[1])));
 }
 bool AnySky(const Scene& scene, const DirectOptions& options)
 {
   return options.Environment &&
-    std::any_of(scene.Lights.begin(), scene.Lights.end(),
-      [](const Light& l) { return l.Enabled && l.Type == LightType::Environment; });
+    AnyLight(scene, options, [](LightType type) { return type == LightType::Environment; });
 }
 
 /// What no double holds is an error and never an infinity handed on.
@@ -72,7 +81,7 @@ Components AddAll(const Scene& scene, const OcclusionScene& occluders, const Rec
 {
   const ConvergenceRecord clock;
   Components components;
-  components.Present = { AnyBeam(scene), AnyArea(scene, options), AnySky(scene, options) };
+  components.Present = { AnyBeam(scene, options), AnyArea(scene, options), AnySky(scene, options) };
   constexpr double weights[Kinds] = { 1.0, 3.0, 3.0 };
   double total = 0.0;
   for (int k = 0; k < Kinds; ++k)
@@ -107,7 +116,8 @@ Components AddAll(const Scene& scene, const OcclusionScene& occluders, const Rec
     components.Rounds[k] = result.Rounds.size() - rounds;
   }
   const auto bands = static_cast<std::size_t>(result.Bands);
-  for (std::size_t i = 0; i < result.Irradiance.size() && !scene.GlobalAmbient.empty(); ++i)
+  const bool ambient = !scene.GlobalAmbient.empty() && options.OnlyLight < 0;
+  for (std::size_t i = 0; i < result.Irradiance.size() && ambient; ++i)
   {
     result.Irradiance[i] += scene.GlobalAmbient[i % bands];
   }
@@ -131,14 +141,15 @@ double Total(const std::array<double, Kinds>& peaks)
 
 /// Groups of patches, or of points, that are computed together.
 void Groups(const Scene& scene, const OcclusionScene& occluders, const std::vector<Patch>& patches,
-  int threads, std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& first)
+  const DirectOptions& options, std::vector<std::uint32_t>& order,
+  std::vector<std::uint32_t>& first)
 {
-  if (!AnyBeam(scene))
+  if (!AnyBeam(scene, options))
   {
     PlainGroups(patches.size(), order, first);
     return;
   }
-  const PatchClusters clusters(scene, occluders, patches, threads);
+  const PatchClusters clusters(scene, occluders, patches, options.Threads);
   for (std::size_t c = 0; c < clusters.Size(); ++c)
   {
     first.push_back(static_cast<std::uint32_t>(order.size()));
@@ -146,8 +157,8 @@ void Groups(const Scene& scene, const OcclusionScene& occluders, const std::vect
   }
   first.push_back(static_cast<std::uint32_t>(order.size()));
 }
-void Groups(const Scene&, const OcclusionScene&, const std::vector<SurfacePoint>& points, int,
-  std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& first)
+void Groups(const Scene&, const OcclusionScene&, const std::vector<SurfacePoint>& points,
+  const DirectOptions&, std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& first)
 {
   PointGroups(points, order, first);
 }
@@ -189,7 +200,7 @@ DirectResult ComputeShare(const Scene& scene, const OcclusionScene& occluders,
   const Communicator& ranks = *options.Ranks;
   const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
   std::vector<std::uint32_t> order, first;
-  Groups(scene, occluders, receivers, options.Threads, order, first);
+  Groups(scene, occluders, receivers, options, order, first);
   const ReceiverShare share(ranks, order, first);
   const Receivers mine = share.Take(receivers);
   DirectOptions own = options;

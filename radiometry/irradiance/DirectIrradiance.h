@@ -8,6 +8,7 @@
 #include "radiometry/scene/Scene.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -33,7 +34,14 @@ struct DirectOptions
   /// Numbers of the receivers, which key their samples, where they are some of more (a rank's share,
   /// group by group); null: their places in the list.
   const std::uint32_t* Numbers = nullptr;
+  /// The place in Scene::Lights of the one light that counts, without the global ambient; -1: all.
+  std::ptrdiff_t OnlyLight = -1;
 
+  /// Whether a light of the scene counts, by its place.
+  bool Takes(std::size_t light) const
+  {
+    return this->OnlyLight < 0 || static_cast<std::size_t>(this->OnlyLight) == light;
+  }
   std::uint64_t NumberOf(std::size_t receiver) const
   {
     return this->Numbers ? this->Numbers[receiver] : receiver;

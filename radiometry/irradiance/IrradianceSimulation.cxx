@@ -137,6 +137,10 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
 {
   IrradianceResult result;
   Report(monitor, 0.0, "planning");
+  if (options.LightVisibility)
+  {
+    CheckLightVisibility(scene);
+  }
   const bool freePoints = std::any_of(
     points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectAbilities abilities;
@@ -168,7 +172,8 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
       direct.SecondsLeft = std::max(1e-9, options.TimeBudget - result.Convergence.Elapsed());
     }
   };
-  const double middle = options.Cells ? (points.empty() ? 0.98 : 0.8) : 0.02;
+  const double end = options.LightVisibility ? 0.5 : 0.98;
+  const double middle = options.Cells ? (points.empty() ? end : 0.8 * end) : 0.02;
   if (options.Cells)
   {
     std::vector<Patch> patches;
@@ -206,6 +211,12 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
     rays = r.Rays;
     result.DroppedPeak = r.DroppedPeak;
     result.DroppedMean = r.DroppedMean;
+    if (options.LightVisibility)
+    {
+      limit();
+      result.CellVisibility = FindLightVisibility(scene, occluders, patches, items, direct,
+        { monitor, end, points.empty() ? 0.98 : 0.8, "visibility of lights" });
+    }
   }
   for (int side = 0; side < sides && !points.empty(); ++side)
   {
@@ -216,8 +227,8 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
     }
     limit();
     DirectResult r = ComputeDirectIrradiance(scene, occluders, facing, direct,
-      { monitor, middle + (0.98 - middle) * side / sides,
-        middle + (0.98 - middle) * (side + 1) / sides, "direct light at points" },
+      { monitor, middle + (end - middle) * side / sides,
+        middle + (end - middle) * (side + 1) / sides, "direct light at points" },
       side == 0 ? &result.Convergence : nullptr);
     peak = std::max(peak, r.PeakUnshadowed);
     timedOut = timedOut || r.TimedOut;
@@ -225,6 +236,12 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
     result.DroppedPeak = std::max(result.DroppedPeak, r.DroppedPeak);
     result.DroppedMean = std::max(result.DroppedMean, r.DroppedMean);
     result.Points[side] = { std::move(r.Irradiance), std::move(r.Error) };
+    if (options.LightVisibility)
+    {
+      limit();
+      result.PointVisibility[side] = FindLightVisibility(
+        scene, occluders, facing, direct, { monitor, 0.8, 0.98, "visibility of lights" });
+    }
   }
   EffectDecision& occlusion = plan[Effect::Occlusion];
   occlusion.Seconds = result.Convergence.Elapsed();

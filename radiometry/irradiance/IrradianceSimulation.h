@@ -4,6 +4,7 @@
 #include "radiometry/accuracy/ConvergenceRecord.h"
 #include "radiometry/effects/EffectPlan.h"
 #include "radiometry/irradiance/DirectIrradiance.h"
+#include "radiometry/irradiance/LightVisibility.h"
 #include "radiometry/irradiance/ShadowPieces.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
@@ -24,6 +25,7 @@ struct IrradianceOptions
   bool Cells = true;              // compute averages over cells
   bool RefineShadowBoundaries = false; // over the pieces into which shadows' edges cut the cells
   std::size_t PiecesPerCell = 1000;    // at most
+  bool LightVisibility = false;        // how much of each light arrives, too
   std::vector<EffectSwitch> Switches = std::vector<EffectSwitch>(EffectCount);
   const Communicator* Ranks = nullptr; // that share the work; null: this process alone
 };
@@ -46,6 +48,8 @@ struct IrradianceResult
   double DroppedPeak = 0.0; // greatest bound on weak lights that a value left out: part of its error,
   double DroppedMean = 0.0; // and the mean over the values, W/m^2
   ShadowPieces Pieces; // empty unless shadows' edges were refined
+  std::array<LightShares, 2> CellVisibility; // empty unless asked for
+  std::array<LightShares, 2> PointVisibility;
 };
 
 /// Direct light on a scene: plans the effects, computes what it calls for, bounds what it left out.

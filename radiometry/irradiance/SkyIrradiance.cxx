@@ -23,12 +23,14 @@ constexpr int FirstSamples = 256;
 /// Where no ray has found the sky, more are not spent.
 constexpr int DarkSamples = 2048;
 
-std::vector<std::unique_ptr<SkyTable>> MakeTables(const Scene& scene)
+std::vector<std::unique_ptr<SkyTable>> MakeTables(
+  const Scene& scene, const DirectOptions& options = {})
 {
   std::vector<std::unique_ptr<SkyTable>> tables;
-  for (const Light& light : scene.Lights)
+  for (std::size_t k = 0; k < scene.Lights.size(); ++k)
   {
-    if (light.Enabled && light.Type == LightType::Environment)
+    const Light& light = scene.Lights[k];
+    if (options.Takes(k) && light.Enabled && light.Type == LightType::Environment)
     {
       tables.push_back(std::make_unique<SkyTable>(light));
       if (tables.back()->Black())
@@ -161,7 +163,7 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
   DirectResult& result)
 {
   const ConvergenceRecord clock;
-  const auto skies = MakeTables(scene);
+  const auto skies = MakeTables(scene, options);
   // Of several ranks all go through the same rounds, since they compare with the mean of all.
   const Communicator* ranks = options.MeanShare > 0.0 ? options.Ranks : nullptr;
   if (skies.empty() || (receivers.empty() && !ranks) || !options.Environment)

@@ -51,6 +51,9 @@ inline constexpr char LuminousExitance[] = "LuminousExitance";
 inline constexpr char Luminance[] = "Luminance";
 inline constexpr char Dose[] = "Dose";                         // radiant exposure
 inline constexpr char LuminousExposure[] = "LuminousExposure"; // its photometric counterpart
+inline constexpr char LightVisibility[] = "LightVisibility"; // share of each light that arrives
+// Field data: which lights those are, a tuple a light: type, position, direction as in its input
+inline constexpr char LightVisibilityLights[] = "LightVisibilityLights";
 inline constexpr char BackSuffix[] = "Back";   // IrradianceBack, ...
 inline constexpr char ErrorSuffix[] = "Error"; // IrradianceError, ...
 

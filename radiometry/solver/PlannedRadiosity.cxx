@@ -57,6 +57,43 @@ FieldValues RadiosityAt(const Scene& scene, const std::vector<SurfacePoint>& poi
   return out;
 }
 
+/// How much of each light arrives, at cells or at points.
+void FindVisibility(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<SurfacePoint>& points, bool cells, const RadiosityOptions& options,
+  double secondsLeft, Monitor* monitor, PlannedRadiosity& out)
+{
+  DirectOptions direct;
+  direct.RelativeTolerance = options.RelativeTolerance;
+  direct.AbsoluteTolerance = options.AbsoluteTolerance;
+  direct.Occlusion = options.Occlusion;
+  direct.SpotShape = options.SpotShape;
+  direct.Attenuation = options.Attenuation;
+  direct.Environment = options.Environment;
+  direct.Transmission = options.Transmission;
+  direct.Threads = options.Threads;
+  direct.Ranks = options.Ranks;
+  direct.SecondsLeft = secondsLeft;
+  const StageProgress stage{ monitor, 0.98, 0.99, "visibility of lights" };
+  const int sides = options.BackFaces ? 2 : 1;
+  if (cells)
+  {
+    std::vector<Patch> patches = MakePatches(scene, 0);
+    const std::vector<Patch> backs = sides == 2 ? MakePatches(scene, 1) : std::vector<Patch>();
+    patches.insert(patches.end(), backs.begin(), backs.end());
+    out.CellVisibility =
+      FindLightVisibility(scene, occluders, patches, scene.Cells, direct, stage);
+  }
+  for (int side = 0; side < sides && !points.empty(); ++side)
+  {
+    std::vector<SurfacePoint> facing = points;
+    for (SurfacePoint& p : facing)
+    {
+      p.Normal = side == 1 ? -p.Normal : p.Normal;
+    }
+    out.PointVisibility[side] = FindLightVisibility(scene, occluders, facing, direct, stage);
+  }
+}
+
 /// No light is negative: what the correction of a coarse exchange pushed below zero is 0, and its
 /// error says by how much. A value or an error without a number is never handed out.
 void Complete(FieldValues& field, const char* where)
@@ -84,6 +121,11 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   RadiosityOptions options, Monitor* monitor, RadiosityCache* cache)
 {
   Report(monitor, 0.0, "planning");
+  if (options.LightVisibility)
+  {
+    CheckLightVisibility(scene);
+  }
+  const ConvergenceRecord clock;
   EffectAbilities abilities;
   abilities.Interreflection = true;
   abilities.Emission = true;
@@ -158,6 +200,13 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
     Complete(out.PointRadiosity[side], "point");
   }
 
+  if (options.LightVisibility)
+  {
+    const double left = options.TimeBudget > 0.0
+      ? std::max(1e-9, options.TimeBudget - clock.Elapsed())
+      : 0.0;
+    FindVisibility(scene, occluders, points, cells, options, left, monitor, out);
+  }
   for (const auto& [stage, seconds] : out.Cells.Seconds)
   {
     plan[stage == "direct light" ? Effect::Occlusion : Effect::Interreflection].Seconds += seconds;

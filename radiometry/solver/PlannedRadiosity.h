@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/effects/EffectPlan.h"
+#include "radiometry/irradiance/LightVisibility.h"
 #include "radiometry/solver/RadiosityCache.h"
 #include "radiometry/solver/RadiositySimulation.h"
 
@@ -18,6 +19,8 @@ struct PlannedRadiosity
   std::array<FieldValues, 2> PointIrradiance; // front, back; as the points that were asked for
   std::array<FieldValues, 2> PointRadiosity;
   std::vector<EffectDecision> Effects; // by Effect
+  std::array<LightShares, 2> CellVisibility; // empty unless asked for
+  std::array<LightShares, 2> PointVisibility;
 };
 
 /// Plans the effects of a scene, simulates those it calls for and bounds those left out.

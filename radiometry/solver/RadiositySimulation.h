@@ -59,6 +59,7 @@ struct RadiosityOptions
   bool Transmission = true; // of the lights' light
   bool SpecularTransport = false; // light over mirrors is followed
   bool PathTransmission = false;  // what surfaces send is followed through panes
+  bool LightVisibility = false;   // how much of each light arrives is wanted, too
   int Threads = 0; // 0: all
   std::uint64_t Seed = 0;
   const Communicator* Ranks = nullptr; // that compute together; null: this process alone
