@@ -233,6 +233,15 @@ def check_cells_cut_along_shadows():
         same(values[own == k], expected[of == cell])
 
 
+def check_visibility_of_lights():
+    lights = lamps() + extended()[:1]
+    whole = irradiance(ROOM.whole(), *lights, alone=True, LightVisibility=True)
+    expected = result(whole, "LightVisibility")
+    assert expected.shape == (CELLS, 3) and expected.max() == 1.0 and expected.min() == 0.0
+    part, cells = ROOM.part(MIXED, rank())
+    same(result(irradiance(part, *lights, LightVisibility=True), "LightVisibility"), expected[cells])
+
+
 def check_bad_input_of_one_rank_ends_all():
     part, cells = ROOM.part(RUNS, rank(), ids=False, ghosts=False)
     if rank() == size() - 1:
