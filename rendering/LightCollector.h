@@ -49,7 +49,7 @@ CollectedLights CollectFromRenderer(vtkRenderer* renderer, bool physical);
 /// Lights as the shaders read them: six RGBA texels a light, in view coordinates, directional
 /// lights first, then points, then spots.
 ///   0  x y z of the position, or of the direction that the light comes from; unused
-///   1  axis of the cone, cosine of its half-angle
+///   1  axis of the cone, 1 - cosine of its half-angle
 ///   2  diffuse colour, exponent
 ///   3  ambient colour, cosine of the inner half-angle
 ///   4  specular colour, 1/(inner - outer)

@@ -85,7 +85,7 @@ PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView
       const Rgb ambient = scale * light.Ambient;
       const double width = light.CosInnerCutoff - light.CosCutoff;
       Put(packed.Texels, place.x, place.y, place.z, 0.0);
-      Put(packed.Texels, axis.x, axis.y, axis.z, light.CosCutoff);
+      Put(packed.Texels, axis.x, axis.y, axis.z, 1.0 - light.CosCutoff);
       Put(packed.Texels, diffuse.r, diffuse.g, diffuse.b, light.SpotExponent);
       Put(packed.Texels, ambient.r, ambient.g, ambient.b, light.CosInnerCutoff);
       // Lights with a hard edge have a step of any great slope there.

@@ -172,6 +172,7 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     })));
     need(specular, "Specular");
     need(Has(needs, "Point") || Has(needs, "Spot"), "Finite");
+    need(specular || Has(needs, "SpotExponent"), "NeedsPower");
     if (!Has(needs, "Ambient"))
     {
       needs.erase("LightAmbient");
@@ -248,6 +249,30 @@ void vtkPhongGouraudHelper::SetPropertyShaderParameters(
   }
   this->Superclass::SetPropertyShaderParameters(cellBO, ren, act);
   complexity = saved;
+  vtkShaderProgram* program = cellBO.Program;
+  vtkProperty* back = act->GetBackfaceProperty();
+  if (this->Ours && back && !program->IsUniformUsed("ambientIntensityBF"))
+  {
+    // VTK 9.2 and 9.3 set what is left of the back's uniforms only where that one is in use.
+    const auto number = [program](const char* name, double value) {
+      if (program->IsUniformUsed(name))
+      {
+        program->SetUniformf(name, static_cast<float>(value));
+      }
+    };
+    const auto color = [program](const char* name, const double* value) {
+      if (program->IsUniformUsed(name))
+      {
+        program->SetUniform3f(name, value);
+      }
+    };
+    number("opacityUniformBF", back->GetOpacity());
+    number("diffuseIntensityBF", back->GetDiffuse());
+    color("diffuseColorUniformBF", back->GetDiffuseColor());
+    number("specularIntensityBF", back->GetSpecular());
+    color("specularColorUniformBF", back->GetSpecularColor());
+    number("specularPowerUniformBF", back->GetSpecularPower());
+  }
 }
 
 void vtkPhongGouraudHelper::SetLightingShaderParameters(

@@ -154,6 +154,7 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
   {
     fragment.erase("Lights");
     fragment.erase("Finite");
+    fragment.erase("NeedsPower");
     fragment.erase("Spot");
     fragment.erase("NeedsNormal");
   }
@@ -162,6 +163,7 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
     vertex.erase("Lights");
     vertex.erase("NeedsNormal");
     vertex.erase("Finite");
+    vertex.erase("NeedsPower");
     vertex.erase("Spot");
   }
   Replace(shaders[vtkShader::Vertex], "//VTK::Light::Dec",

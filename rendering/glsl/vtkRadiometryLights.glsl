@@ -25,13 +25,27 @@ struct LightSums
 //@end
 };
 
+//@if NeedsPower
+// max(1 - x, 0)^n; 0^0 is 1. Near x = 0, pow() would lose what n multiplies: the logarithm of a
+// number just below 1 is known to a rounding of 1 there. Its series in s = x/(2 - x) is known to a
+// rounding of itself: ln(1 - x) = -2 artanh(s), to 2e-8 of itself for x < 1/2.
+float powerOfOneMinus(float x, float n)
+{
+  float s = x / (2.0 - x);
+  float s2 = s * s;
+  float series = 1.0 / 9.0 + s2 * (1.0 / 11.0 + s2 / 13.0);
+  series = 1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0 + s2 * series)));
+  float power = x < 0.5 ? exp(-2.0 * n * s * series) : pow(max(1.0 - x, 1e-37), n);
+  return x < 1.0 || n == 0.0 ? power : 0.0;
+}
+//@end
+
 //@if Specular
 // max(a.b, 0)^n for unit vectors, from the chord: see PowerOfCosine in LightingModel.cxx.
 float powerOfCosine(vec3 a, vec3 b, float n)
 {
   vec3 chord = a - b;
-  float cosine = 1.0 - 0.5 * dot(chord, chord);
-  return n == 0.0 ? 1.0 : (cosine > 0.0 ? pow(cosine, n) : 0.0);
+  return powerOfOneMinus(0.5 * dot(chord, chord), n);
 }
 
 float specularFactor(vec3 N, vec3 L, vec3 V, float nl, float shininess)
@@ -79,19 +93,21 @@ void addLight(int light, vec3 L, float factor, vec3 N,
 //@if Spot
 float coneFactor(int light, vec3 L)
 {
+  // 1 - cosine, from the chord: narrow cones live on its digits. cone.w is the cone's own.
   vec4 cone = texelFetch(radiometryLights, light + 1);
-  float cosine = dot(cone.xyz, -L);
-  if (cosine < cone.w)
+  vec3 chord = cone.xyz + L;
+  float x = 0.5 * dot(chord, chord);
+  if (x > cone.w)
   {
     return 0.0;
   }
   float factor = 1.0;
 //@if SpotExponent
   float exponent = texelFetch(radiometryLights, light + 2).w;
-  factor = exponent == 0.0 ? 1.0 : pow(max(cosine, 0.0), exponent);
+  factor = powerOfOneMinus(x, exponent);
 //@end
 //@if SmoothEdge
-  float t = min((cosine - cone.w) * texelFetch(radiometryLights, light + 4).w, 1.0);
+  float t = min((cone.w - x) * texelFetch(radiometryLights, light + 4).w, 1.0);
   factor *= t * t;
 //@end
   return factor;

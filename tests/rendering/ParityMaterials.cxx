@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Features of materials, of the model and of colours that come from the data.
+#include "ParityMaking.h"
+
+#include <cmath>
+
+using namespace radiometry;
+
+namespace parity
+{
+
+void NeedHighlight(Scene& scene, Random& random)
+{
+  NeedLight(scene, random);
+  for (DisplayMaterial* side : { &scene.Front, &scene.Back })
+  {
+    if (side->Specular == Rgb())
+    {
+      side->Specular = random.Color(0.1, 1.0);
+      side->Shininess = random.In(1.0, 60.0);
+    }
+  }
+}
+
+namespace
+{
+
+DisplayMaterial RandomMaterial(Random& random)
+{
+  DisplayMaterial material;
+  material.Diffuse = random.Color(0.1, 1.0);
+  material.Ambient = random.Chance(0.5) ? random.Color(0.0, 1.0) : Rgb();
+  material.Specular = random.Chance(0.5) ? random.Color(0.0, 1.0) : Rgb();
+  material.Shininess = random.In(0.0, 100.0);
+  return material;
+}
+
+void SetColors(Scene& scene, Random& random, ParityColors colors, std::size_t count, double least,
+  double most)
+{
+  scene.Colors = colors;
+  scene.AmbientShare = random.Chance(0.5) ? static_cast<float>(random.In(0.1, 1.0)) : 0.0;
+  scene.Values.clear();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Rgb c = random.Color(least, most);
+    if (colors == ParityColors::Scalars)
+    {
+      c = { std::floor(c.r), std::floor(c.g), std::floor(c.b) };
+    }
+    scene.Values.push_back(c);
+  }
+}
+
+void SetMaterials(Scene& scene, Random& random)
+{
+  SetColors(scene, random, ParityColors::Materials, 0, 0.0, 1.0);
+  NeedLight(scene, random);
+  const bool highlights = random.Chance(0.6);
+  const bool emission = random.Chance(0.5);
+  const bool back = random.Chance(0.5);
+  const auto material = [&] {
+    DisplayMaterial m;
+    m.Diffuse = random.Color(0.1, 0.8);
+    m.Specular = highlights ? random.Color(0.0, 0.5) : Rgb();
+    m.Shininess = highlights ? random.In(0.0, 80.0) : 10.0;
+    m.Emission = emission ? random.Color(0.0, 5.0) : Rgb();
+    return m;
+  };
+  scene.CellFront.clear();
+  scene.CellBack.clear();
+  scene.CellTwoSided.clear();
+  for (std::size_t t = 0; t < scene.Triangles(); ++t)
+  {
+    scene.CellFront.push_back(material());
+    if (back)
+    {
+      scene.CellBack.push_back(material());
+    }
+  }
+  if (random.Chance(0.5))
+  {
+    scene.Model.TwoSided = true;
+    for (std::size_t t = 0; t < scene.Triangles(); ++t)
+    {
+      scene.CellTwoSided.push_back(random.Chance(0.6));
+    }
+  }
+}
+
+} // namespace
+
+void AddMaterialFeatures(const AddFeature& add)
+{
+  const auto addModel = [&add](const char* name, ReflectionModel model) {
+    add(name, 0.3, [model](Scene& s, Random& r) {
+      NeedHighlight(s, r);
+      s.Model.Reflection = model;
+    });
+  };
+  addModel("highlights: Blinn-Phong", ReflectionModel::BlinnPhong);
+  addModel("highlights: Phong", ReflectionModel::Phong);
+  addModel("highlights: Physical", ReflectionModel::Physical);
+  add("shininess 0 to 1", 0.1, [](Scene& s, Random& r) {
+    NeedHighlight(s, r);
+    s.Front.Shininess = r.Chance(0.4) ? 0.0 : r.In(0.0, 1.0);
+    s.Back.Shininess = r.In(0.0, 1.0);
+  });
+  add("shininess 100 to 1000", 0.1, [](Scene& s, Random& r) {
+    NeedHighlight(s, r);
+    // vtkProperty ends at 128; exponents of surface arrays do not.
+    s.Front.Shininess = r.Chance(0.3) ? 128.0 : r.In(100.0, 128.0);
+    s.Back.Shininess = r.In(100.0, 128.0);
+    SetMaterials(s, r);
+    for (auto* materials : { &s.CellFront, &s.CellBack })
+    {
+      for (DisplayMaterial& m : *materials)
+      {
+        m.Specular = r.Color(0.0, 0.5);
+        m.Shininess = r.Chance(0.3) ? 1000.0 : r.In(100.0, 1000.0);
+      }
+    }
+  });
+  add("viewer at infinity", 0.25, [](Scene& s, Random& r) {
+    NeedHighlight(s, r);
+    s.Model.LocalViewer = false;
+  });
+  add("global ambient", 0.3, [](Scene& s, Random& r) {
+    s.Front.Ambient = r.Color(0.1, 1.0);
+    s.Back.Ambient = r.Color(0.1, 1.0);
+    s.Model.GlobalAmbient = r.Color(0.0, 3.0);
+  });
+  add("emission", 0.2, [](Scene& s, Random& r) {
+    s.Front.Emission = r.Color(0.0, 5.0);
+    s.Back.Emission = r.Color(0.0, 5.0);
+  });
+  add("two-sided", 0.4, [](Scene& s, Random& r) {
+    NeedLight(s, r);
+    s.Model.TwoSided = true;
+  });
+  add("back material", 0.2, [](Scene& s, Random& r) {
+    NeedLight(s, r);
+    s.Model.TwoSided = true;
+    s.HasBack = true;
+    s.Back = RandomMaterial(r);
+    s.Back.Emission = s.Front.Emission;
+  });
+  // Colours that are not the property's.
+  add("block colours", 0.1, [](Scene& s, Random& r) {
+    NeedLight(s, r);
+    SetColors(s, r, ParityColors::Blocks, 3, 0.0, 1.0);
+    s.TrianglesPerBlock = 2;
+  });
+  add("scalar colours", 0.08, [](Scene& s, Random& r) {
+    NeedLight(s, r);
+    SetColors(s, r, ParityColors::Scalars, s.Triangles(), 0.0, 256.0);
+  });
+  add("reflectance of cells", 0.08, [](Scene& s, Random& r) {
+    NeedLight(s, r);
+    SetColors(s, r, ParityColors::CellReflectance, s.Triangles(), 0.0, 1.0);
+    s.FieldScale = r.In(0.2, 1.0);
+  });
+  add("reflectance of points", 0.08, [](Scene& s, Random& r) {
+    NeedLight(s, r);
+    SetColors(s, r, ParityColors::PointReflectance, s.Points.size(), 0.0, 1.0);
+  });
+  add("material arrays", 0.15, SetMaterials);
+  add("field of cells, HDR", 0.06, [](Scene& s, Random& r) {
+    SetColors(s, r, ParityColors::CellField, s.Triangles(), -5.0, std::pow(10.0, r.In(0.0, 6.0)));
+    s.FieldScale = std::pow(10.0, r.In(-2.0, 2.0));
+  });
+  add("field of points, HDR", 0.06, [](Scene& s, Random& r) {
+    SetColors(s, r, ParityColors::PointField, s.Points.size(), -5.0, std::pow(10.0, r.In(0.0, 6.0)));
+    s.FieldScale = std::pow(10.0, r.In(-2.0, 2.0));
+  });
+  add("alpha: layers in float", 0.15, [](Scene& s, Random& r) {
+    NeedLight(s, r);
+    s.Alpha = r.In(0.1, 0.9);
+  });
+}
+
+} // namespace parity
