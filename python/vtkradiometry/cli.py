@@ -18,7 +18,7 @@ def _say(text):
 
 def main(arguments=None):
     """Runs the front end; returns the exit status."""
-    options = command_line.make_parser().parse_args(arguments)
+    options = command_line.parse(arguments)
     if options.version:
         from .versions import versions
 

@@ -8,6 +8,8 @@ import argparse
 import math
 import re
 
+FIRST_LOOK = 15.0  # seconds for each computation where nobody says how accurate
+
 
 def _positive(text):
     value = float(text)
@@ -106,6 +108,17 @@ class _Luminaire(argparse.Action):
         found[-1]["toward"][-1] = value
 
 
+def parse(arguments, program="./run"):
+    """The options as given, with the accuracy that the two of it leave open filled in: who names no
+    tolerance wants a first look soon; who names one gets it, however long it takes."""
+    options = make_parser(program).parse_args(arguments)
+    if options.time_budget is None:
+        options.time_budget = FIRST_LOOK if options.tolerance is None else 0.0
+    if options.tolerance is None:
+        options.tolerance = 0.05
+    return options
+
+
 def make_parser(program="./run"):
     """The command line as an argparse parser."""
     parser = argparse.ArgumentParser(
@@ -126,11 +139,12 @@ def make_parser(program="./run"):
     parser.add_argument("--version", action="store_true", help="print the versions and stop")
 
     accuracy = parser.add_argument_group("how accurate, how long")
-    accuracy.add_argument("--tolerance", type=_positive, default=0.05, metavar="X",
+    accuracy.add_argument("--tolerance", type=_positive, default=None, metavar="X",
                           help="relative error to reach, 0.01 is one per cent (default: 0.05)")
-    accuracy.add_argument("--time-budget", type=_not_negative, default=0.0, metavar="SECONDS",
-                          help="stop each computation after this time and say how far it got "
-                          "(default: 0, no limit)")
+    accuracy.add_argument("--time-budget", type=_not_negative, default=None, metavar="SECONDS",
+                          help="stop each computation after this time and say how far it got; 0 is "
+                          f"no limit (default: {FIRST_LOOK:g}, but no limit where --tolerance is "
+                          "given)")
     accuracy.add_argument("--max-edge", type=_edge, default="auto", metavar="METRES",
                           help="split triangles until no edge is longer; 0 keeps the mesh as it is "
                           "(default: auto, about 2500 triangles)")

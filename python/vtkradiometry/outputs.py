@@ -247,6 +247,8 @@ def write_all(output, scene, results, options, progress):
         f"({format_number(summary['mean']['irradiance'])} W/m2) over "
         f"{format_number(float(areas.sum()))} m2; estimated error "
         f"{quantities.format_percent(summary['error'])} of the mean.")
+    if options.time_budget > 0.0:
+        sentence += f" {results[-1].name}: {results[-1].facts().get('Outcome', 'done')}."
     if plane is not None:
         sentence += "\n" + plane.sentence()
     document = {
