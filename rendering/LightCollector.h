@@ -5,12 +5,15 @@
 #include "ShaderTemplate.h"
 #include "radiometry/shading/LightingModel.h"
 
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+
 #include <array>
 #include <string>
 #include <vector>
 
 class vtkDataObject;
-class vtkMatrix4x4;
 class vtkRenderer;
 
 namespace vtkradiometry
@@ -46,7 +49,18 @@ CollectedLights CollectFromData(vtkDataObject* lights);
 /// model will divide by it.
 CollectedLights CollectFromRenderer(vtkRenderer* renderer, bool physical);
 
-/// Lights as the shaders read them: six RGBA texels a light, in view coordinates, directional
+/// The coordinates in which surfaces are lit: the axes of the view about an origin in the middle of
+/// the surface. Light needs differences of positions; near that origin float32 has digits for them,
+/// wherever in the world surface and eye are.
+struct LocalCoordinates
+{
+  vtkNew<vtkMatrix4x4> FromWorld;
+  vtkNew<vtkMatrix4x4> FromView;
+  vtkNew<vtkMatrix3x3> FromBuffer; // of coordinates as the vertex buffers have them; transposed
+  std::array<float, 3> Eye{ { 0.0f, 0.0f, 0.0f } };
+};
+
+/// Lights as the shaders read them: six RGBA texels a light, in local coordinates, directional
 /// lights first, then points, then spots.
 ///   0  x y z of the position, or of the direction that the light comes from; unused
 ///   1  axis of the cone, 1 - cosine of its half-angle
@@ -63,10 +77,10 @@ struct PackedLights
   ShaderFeatures Features; // what these lights need of the shader
 };
 
-/// Moves lights into view coordinates and packs them. Only lights that give light are kept.
-///   worldToView, objectToWorld   as vtkCamera and vtkProp3D give them
+/// Moves lights into local coordinates and packs them. Only lights that give light are kept.
+///   objectToWorld   as vtkProp3D gives it
 ///   scale    multiplies every colour;  metersPerUnit turns view distances into metres
-PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView,
+PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& local,
   vtkMatrix4x4* objectToWorld, radiometry::ReflectionModel reflection, double scale,
   double metersPerUnit);
 

@@ -47,14 +47,13 @@ Vec3 TransformDirection(vtkMatrix4x4* m, const Vec3& d)
 
 } // namespace
 
-PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView,
+PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& local,
   vtkMatrix4x4* objectToWorld, radiometry::ReflectionModel reflection, double scale,
   double metersPerUnit)
 {
   PackedLights packed;
-  vtkNew<vtkMatrix4x4> identity;
-  vtkNew<vtkMatrix4x4> objectToView;
-  vtkMatrix4x4::Multiply4x4(worldToView, objectToWorld, objectToView);
+  vtkNew<vtkMatrix4x4> objectToLocal;
+  vtkMatrix4x4::Multiply4x4(local.FromWorld, objectToWorld, objectToLocal);
   // Radiance of a Lambertian surface is E/pi: the division is done once, here.
   const double unit = scale *
     (reflection == radiometry::ReflectionModel::Physical ? 1.0 / vtkMath::Pi() : 1.0);
@@ -73,16 +72,21 @@ PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView
       {
         continue;
       }
-      vtkMatrix4x4* toView = lights.Frames[i] == LightFrame::Scene
-        ? worldToView
-        : (lights.Frames[i] == LightFrame::Object ? objectToView.Get() : identity.Get());
+      vtkMatrix4x4* toLocal = lights.Frames[i] == LightFrame::Scene
+        ? local.FromWorld.Get()
+        : (lights.Frames[i] == LightFrame::Object ? objectToLocal.Get() : local.FromView.Get());
       const Vec3 given{ light.Position[0], light.Position[1], light.Position[2] };
       const Vec3 place =
-        directional ? TransformDirection(toView, given) : TransformPoint(toView, given);
-      const Vec3 axis = TransformDirection(toView, light.SpotDirection);
-      const Rgb diffuse = unit * light.Diffuse;
-      const Rgb specular = unit * light.Specular;
-      const Rgb ambient = scale * light.Ambient;
+        directional ? TransformDirection(toLocal, given) : TransformPoint(toLocal, given);
+      const Vec3 axis = TransformDirection(toLocal, light.SpotDirection);
+      const auto& a = light.Attenuation;
+      const bool constant = a[0] == 1.0 && a[1] == 0.0 && a[2] == 0.0;
+      const bool square = !directional && a[0] == 0.0 && a[1] == 0.0;
+      // 1/(c r^2): c is part of the colours, so that shaders need 1/r^2 alone.
+      const double c = square ? a[2] * metersPerUnit * metersPerUnit : 1.0;
+      const Rgb diffuse = unit / c * light.Diffuse;
+      const Rgb specular = unit / c * light.Specular;
+      const Rgb ambient = scale / c * light.Ambient;
       const double width = light.CosInnerCutoff - light.CosCutoff;
       Put(packed.Texels, place.x, place.y, place.z, 0.0);
       Put(packed.Texels, axis.x, axis.y, axis.z, 1.0 - light.CosCutoff);
@@ -91,8 +95,8 @@ PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView
       // Lights with a hard edge have a step of any great slope there.
       Put(packed.Texels, specular.r, specular.g, specular.b,
         light.SmoothEdge && width > 0.0 ? 1.0 / width : 1e30);
-      Put(packed.Texels, light.Attenuation[0], light.Attenuation[1] * metersPerUnit,
-        light.Attenuation[2] * metersPerUnit * metersPerUnit, 0.0);
+      Put(packed.Texels, a[0], a[1] * metersPerUnit,
+        square ? 1.0 : a[2] * metersPerUnit * metersPerUnit, 0.0);
 
       packed.Features.insert(directional ? "Directional" : (spot ? "Spot" : "Point"));
       packed.Features.insert("Lights");
@@ -108,9 +112,6 @@ PackedLights PackLights(const CollectedLights& lights, vtkMatrix4x4* worldToView
       need(spot && light.SmoothEdge && width > 0.0, "SmoothEdge");
       if (!directional)
       {
-        const auto& a = light.Attenuation;
-        const bool constant = a[0] == 1.0 && a[1] == 0.0 && a[2] == 0.0;
-        const bool square = a[0] == 0.0 && a[1] == 0.0;
         need(!constant && !square, "Attenuation");
         need(square, "InverseSquare");
         need(constant, "NoFallOff");

@@ -15,6 +15,7 @@
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLVertexBufferObject.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -202,6 +203,11 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     need(lights && shading == vtkPhongGouraudMapper::GOURAUD, "PerVertex");
     need(lights && shading == vtkPhongGouraudMapper::FLAT, "PerCell");
     need(lights && !Has(needs, "PerVertex"), "FragmentNormal");
+    need(lights && (Has(needs, "Finite") || Has(needs, "LocalViewer")), "Position");
+    const bool perPixel = Has(needs, "Position") && !Has(needs, "PerVertex");
+    need(perPixel && Has(needs, "PerCell"), "CellPosition");
+    need(perPixel && !Has(needs, "PerCell"), "FragmentPosition");
+    need(Has(needs, "LocalViewer") && !Has(needs, "PerVertex"), "FragmentViewer");
     mapper->ShadingUsed = shading;
   }
   need(Has(needs, "ShowNormals"), "FragmentNormal");
@@ -339,9 +345,62 @@ void vtkPhongGouraudHelper::SetLightingShaderParameters(
   }
 }
 
+void vtkPhongGouraudHelper::SetCameraShaderParameters(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::SetCameraShaderParameters(cellBO, ren, act);
+  vtkShaderProgram* program = cellBO.Program;
+  if (this->Ours && program->IsUniformUsed("MCLCMatrix"))
+  {
+    program->SetUniformMatrix("MCLCMatrix", this->Local.FromBuffer);
+  }
+  if (this->Ours && program->IsUniformUsed("eyeLC"))
+  {
+    program->SetUniform3f("eyeLC", this->Local.Eye.data());
+  }
+}
+
 //------------------------------------------------------------------------------
 // Lights
 //------------------------------------------------------------------------------
+void vtkPhongGouraudHelper::PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectToWorld)
+{
+  // VTK stores coordinates as (p - shift) scale, with the middle of the bounds as shift. That middle
+  // is the origin; so buffers need a linear map alone.
+  double origin[4] = { 0.0, 0.0, 0.0, 1.0 };
+  double scale[3] = { 1.0, 1.0, 1.0 };
+  vtkOpenGLVertexBufferObject* positions = this->VBOs->GetVBO("vertexMC");
+  if (positions && positions->GetCoordShiftAndScaleEnabled())
+  {
+    std::copy_n(positions->GetShift().begin(), 3, origin);
+    std::copy_n(positions->GetScale().begin(), 3, scale);
+  }
+  objectToWorld->MultiplyPoint(origin, origin);
+  vtkMatrix4x4* worldToView = ren->GetActiveCamera()->GetModelViewTransformMatrix();
+  vtkMatrix4x4* worldToLocal = this->Local.FromWorld;
+  vtkMatrix4x4* viewToLocal = this->Local.FromView;
+  worldToLocal->DeepCopy(worldToView);
+  viewToLocal->Identity();
+  for (int i = 0; i < 3; ++i)
+  {
+    double shift = 0.0;
+    for (int j = 0; j < 3; ++j)
+    {
+      double ofObject = 0.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        ofObject += worldToView->GetElement(i, k) * objectToWorld->GetElement(k, j);
+      }
+      this->Local.FromBuffer->SetElement(j, i, ofObject / scale[j]); // transposed, as GLSL reads it
+      shift += worldToView->GetElement(i, j) * origin[j];
+    }
+    worldToLocal->SetElement(i, 3, -shift);
+    const double eye = -shift - worldToView->GetElement(i, 3);
+    viewToLocal->SetElement(i, 3, eye);
+    this->Local.Eye[i] = static_cast<float>(eye);
+  }
+}
+
 void vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren, vtkActor* act)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
@@ -363,8 +422,8 @@ void vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren, vtkActor* act)
 
   vtkNew<vtkMatrix4x4> objectToWorld;
   act->GetModelToWorldMatrix(objectToWorld);
-  this->Lights = vtkradiometry::PackLights(collected,
-    ren->GetActiveCamera()->GetModelViewTransformMatrix(), objectToWorld, model,
+  this->PlaceOrigin(ren, objectToWorld);
+  this->Lights = vtkradiometry::PackLights(collected, this->Local, objectToWorld, model,
     mapper->LightScale, mapper->MetersPerUnit);
   mapper->NumberOfLightsDrawn = this->Lights.Ranges[2][1];
   mapper->NumberOfLightsNotDrawn = collected.NotDrawn;
@@ -375,10 +434,6 @@ void vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren, vtkActor* act)
 //------------------------------------------------------------------------------
 void vtkPhongGouraudHelper::RenderPiece(vtkRenderer* ren, vtkActor* act)
 {
-  if (!ren->GetSelector())
-  {
-    this->CollectLights(ren, act);
-  }
   this->Superclass::RenderPiece(ren, act);
 }
 
@@ -387,6 +442,7 @@ void vtkPhongGouraudHelper::RenderPieceStart(vtkRenderer* ren, vtkActor* act)
   this->Superclass::RenderPieceStart(ren, act);
   if (!ren->GetSelector())
   {
+    this->CollectLights(ren, act); // its coordinates are those of the buffers
     this->LightBuffer.Upload(ren, std::vector<float>(this->Lights.Texels));
     for (FloatBuffer* buffer : this->Buffers())
     {

@@ -49,6 +49,8 @@ protected:
   void ReplaceShaderLight(ShaderMap shaders, vtkRenderer* ren, vtkActor* act) override;
   void SetPropertyShaderParameters(
     vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
+  void SetCameraShaderParameters(
+    vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
   void SetLightingShaderParameters(
     vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
 
@@ -91,6 +93,7 @@ private:
   /// Everything that decides the text of the shaders.
   vtkradiometry::ShaderFeatures Needs(vtkRenderer* ren, vtkActor* act);
   void CollectLights(vtkRenderer* ren, vtkActor* act);
+  void PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectToWorld);
   void AppendField(vtkPolyData* block, bool newPoints);
   void BuildCellBuffers(vtkRenderer* ren, vtkActor* act);
   void BuildMaterials(vtkRenderer* ren, vtkActor* act);
@@ -116,6 +119,7 @@ private:
   void AppendScalars(vtkPolyData* block, bool newPoints);
   void BuildFalseColor(vtkRenderer* ren, vtkActor* act);
 
+  vtkradiometry::LocalCoordinates Local;
   vtkradiometry::PackedLights Lights;
   vtkradiometry::ShaderFeatures Features; // of the primitive that is being drawn
   std::map<const vtkOpenGLHelper*, std::string> Signatures;

@@ -12,6 +12,10 @@
 #include "vtkPhongGouraudVSDec.h"
 #include "vtkRadiometryLights.h"
 
+#include "vtkActor.h"
+#include "vtkInformation.h"
+#include "vtkInformationObjectBaseVectorKey.h"
+#include "vtkOpenGLRenderPass.h"
 #include "vtkShader.h"
 #include "vtkShaderProgram.h"
 
@@ -55,10 +59,13 @@ void vtkPhongGouraudHelper::ReplaceShaderValues(
     this->Superclass::ReplaceShaderValues(shaders, ren, act);
     return;
   }
-  // VTK hands positions to the fragment shader only where it counts lights of its own.
+  // VTK hands positions (view coordinates) to the fragment shader only where it counts lights of its
+  // own. These shaders have theirs; render passes such as SSAO may read VTK's.
+  vtkInformation* keys = act->GetPropertyKeys();
+  const bool passes = keys && keys->Has(vtkOpenGLRenderPass::RenderPasses());
   int& complexity = this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity;
   const int saved = complexity;
-  complexity = 3;
+  complexity = passes ? 3 : 0;
   this->Superclass::ReplaceShaderValues(shaders, ren, act);
   complexity = saved;
 }
@@ -71,9 +78,10 @@ void vtkPhongGouraudHelper::ReplaceShaderColor(ShaderMap shaders, vtkRenderer* r
     return;
   }
   int& complexity = this->PrimitiveInfo[this->LastBoundBO].LastLightComplexity;
+  const int saved = complexity;
   complexity = Has(this->Features, "Specular") ? 3 : 0;
   this->Superclass::ReplaceShaderColor(shaders, ren, act);
-  complexity = 3;
+  complexity = saved;
   if (Has(this->Features, "Mirrored"))
   {
     // A mirrored actor shows its fronts with the other winding.
@@ -152,6 +160,10 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
   ShaderFeatures fragment = features;
   if (Has(features, "PerVertex"))
   {
+    if (Has(features, "TwoSided"))
+    {
+      vertex.insert("BothSides");
+    }
     fragment.erase("Lights");
     fragment.erase("Finite");
     fragment.erase("NeedsPower");
@@ -169,7 +181,7 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
   Replace(shaders[vtkShader::Vertex], "//VTK::Light::Dec",
     ExpandShader(vtkPhongGouraudVSDec, features) + ExpandShader(vtkRadiometryLights, vertex));
   Replace(shaders[vtkShader::Vertex], "//VTK::Light::Impl",
-    ExpandShader(vtkPhongGouraudVS, features));
+    ExpandShader(vtkPhongGouraudVS, vertex));
   Replace(shaders[vtkShader::Geometry], "//VTK::Light::Dec",
     ExpandShader(vtkPhongGouraudGSDec, features));
   Replace(shaders[vtkShader::Geometry], "//VTK::Light::Impl",

@@ -111,19 +111,24 @@
 //@end
 //@end
 //@else
-//@if PerCell
-  vec3 P = (MCVCMatrix * vec4(texelFetch(radiometryCellFrames, frame + 1).xyz, 1.0)).xyz;
-//@else
-  vec3 P = vertexVC.xyz;
+//@if CellPosition
+  vec3 P = MCLCMatrix * texelFetch(radiometryCellFrames, frame + 1).xyz;
+//@end
+//@if FragmentPosition
+  vec3 P = positionVSOutput;
 //@end
 //@if Specular
 //@if LocalViewer
-  vec3 V = -P / max(length(P), 1e-37);
+  vec3 V = eyeLC - P;
+  V *= inversesqrt(max(dot(V, V), 1e-37));
 //@else
   vec3 V = vec3(0.0, 0.0, 1.0);
 //@end
 //@end
-  LightSums sums = sumLights(P, N
+  LightSums sums = sumLights(N
+//@if Finite
+    , P
+//@end
 //@if Specular
     , V, specularPower
 //@end

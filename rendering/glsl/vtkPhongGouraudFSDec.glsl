@@ -5,8 +5,14 @@
 uniform samplerBuffer radiometryCellFrames;
 uniform mat3 normalMatrix;
 //@end
-//@if PerCell
-uniform mat4 MCVCMatrix;
+//@if FragmentPosition
+in vec3 positionVSOutput;
+//@end
+//@if CellPosition
+uniform mat3 MCLCMatrix;
+//@end
+//@if FragmentViewer
+uniform vec3 eyeLC;
 //@end
 //@if Field
 uniform float fieldScale;

@@ -12,6 +12,9 @@
   fieldBackGSOutput = fieldBackVSOutput[i];
 //@end
 //@end
+//@if FragmentPosition
+  positionGSOutput = positionVSOutput[i];
+//@end
 //@if PerVertex
   diffuseFrontGSOutput = diffuseFrontVSOutput[i];
 //@if LightAmbient

@@ -16,6 +16,10 @@ in vec3 fieldBackVSOutput[];
 out vec3 fieldBackGSOutput;
 //@end
 //@end
+//@if FragmentPosition
+in vec3 positionVSOutput[];
+out vec3 positionGSOutput;
+//@end
 //@if PerVertex
 in vec3 diffuseFrontVSOutput[];
 out vec3 diffuseFrontGSOutput;

@@ -12,19 +12,36 @@
   fieldBackVSOutput = radiometryFieldBackMC;
 //@end
 //@end
+//@if FragmentPosition
+  positionVSOutput = MCLCMatrix * vertexMC.xyz;
+//@end
 //@if PerVertex
   {
+//@if Position
+    vec3 P = MCLCMatrix * vertexMC.xyz;
+//@end
     vec3 N = safeNormal(normalMatrix * normalMC);
 //@if Specular
 //@if LocalViewer
-    vec3 V = -vertexVCVSOutput.xyz / max(length(vertexVCVSOutput.xyz), 1e-37);
+    vec3 V = eyeLC - P;
+    V *= inversesqrt(max(dot(V, V), 1e-37));
 //@else
     vec3 V = vec3(0.0, 0.0, 1.0);
 //@end
 //@end
-    LightSums sums = sumLights(vertexVCVSOutput.xyz, N
+    LightSums sums = sumLights(N
+//@if Finite
+      , P
+//@end
 //@if Specular
       , V, specularPowerUniform
+//@if BothSides
+//@if BackMaterial
+      , specularPowerUniformBF
+//@else
+      , specularPowerUniform
+//@end
+//@end
 //@end
       );
     diffuseFrontVSOutput = sums.diffuse;
@@ -34,20 +51,10 @@
 //@if Specular
     specularFrontVSOutput = sums.specular;
 //@end
-//@if TwoSided
-    sums = sumLights(vertexVCVSOutput.xyz, -N
+//@if BothSides
+    diffuseBackVSOutput = sums.diffuseBack;
 //@if Specular
-      , V,
-//@if BackMaterial
-      specularPowerUniformBF
-//@else
-      specularPowerUniform
-//@end
-//@end
-      );
-    diffuseBackVSOutput = sums.diffuse;
-//@if Specular
-    specularBackVSOutput = sums.specular;
+    specularBackVSOutput = sums.specularBack;
 //@end
 //@end
   }

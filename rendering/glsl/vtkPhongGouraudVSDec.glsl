@@ -16,8 +16,18 @@ in vec3 radiometryFieldBackMC;
 out vec3 fieldBackVSOutput;
 //@end
 //@end
+//@if FragmentPosition
+uniform mat3 MCLCMatrix;
+out vec3 positionVSOutput;
+//@end
 //@if PerVertex
+//@if Position
+uniform mat3 MCLCMatrix;
+//@end
 //@if Specular
+//@if LocalViewer
+uniform vec3 eyeLC;
+//@end
 uniform float specularPowerUniform;
 //@if TwoSided
 //@if BackMaterial

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lighting model of radiometry/shading/LightingModel.h on the GPU: the same formulas, line by
 // line. Expanded by ShaderTemplate.h; used by the vertex shader (Gouraud) and by the fragment shader
-// (Flat, Phong). Texels: LightCollector.h.
+// (Flat, Phong). Texels: LightCollector.h. Positions are local: the axes of the view about an origin in
+// the middle of the surface, so that float32 keeps the digits of far and of large coordinates.
 //@if Lights
 uniform samplerBuffer radiometryLights;
 //@if Directional
@@ -23,6 +24,12 @@ struct LightSums
 //@if Specular
   vec3 specular;
 //@end
+//@if BothSides
+  vec3 diffuseBack;
+//@if Specular
+  vec3 specularBack;
+//@end
+//@end
 };
 
 //@if NeedsPower
@@ -35,27 +42,28 @@ float powerOfOneMinus(float x, float n)
   float s2 = s * s;
   float series = 1.0 / 9.0 + s2 * (1.0 / 11.0 + s2 / 13.0);
   series = 1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0 + s2 * series)));
-  float power = x < 0.5 ? exp(-2.0 * n * s * series) : pow(max(1.0 - x, 1e-37), n);
+  float power = exp(n * (x < 0.5 ? -2.0 * s * series : log(max(1.0 - x, 1e-37))));
   return x < 1.0 || n == 0.0 ? power : 0.0;
 }
 //@end
 
 //@if Specular
-// max(a.b, 0)^n for unit vectors, from the chord: see PowerOfCosine in LightingModel.cxx.
+// max(a.b, 0)^n for unit vectors, from the chord: see PowerOfCosine in LightingModel.cxx. 0^0 is 1.
 float powerOfCosine(vec3 a, vec3 b, float n)
 {
   vec3 chord = a - b;
   return powerOfOneMinus(0.5 * dot(chord, chord), n);
 }
 
-float specularFactor(vec3 N, vec3 L, vec3 V, float nl, float shininess)
+// S is V itself for N.H; else V mirrored in N, so that S.L is R.V: one reflection for all lights.
+float specularFactor(vec3 N, vec3 L, vec3 S, float nl, float shininess)
 {
 //@if BlinnPhong
-  vec3 H = L + V;
+  vec3 H = L + S;
   float length2 = dot(H, H);
-  return length2 > 0.0 ? powerOfCosine(N, H / sqrt(length2), shininess) : 0.0;
+  return length2 > 0.0 ? powerOfCosine(N, H * inversesqrt(length2), shininess) : 0.0;
 //@else
-  float lobe = powerOfCosine(2.0 * nl * N - L, V, shininess);
+  float lobe = powerOfCosine(S, L, shininess);
 //@if Physical
   // (n + 2)/(2 pi) nl; the light's colour is already divided by pi
   return 0.5 * (shininess + 2.0) * nl * lobe;
@@ -66,28 +74,40 @@ float specularFactor(vec3 N, vec3 L, vec3 V, float nl, float shininess)
 }
 //@end
 
-// One light: L toward it, factor its fall-off and cone.
-void addLight(int light, vec3 L, float factor, vec3 N,
+// One light: L toward it, nl = N.L, factor its fall-off and cone. Of finite lights nl is scaled after
+// the product: at grazing light the rounding of a unit vector would show.
+void addLight(int light, vec3 L, float nl, float factor, vec3 N,
 //@if Specular
-  vec3 V, float shininess,
+  vec3 S, float shininess,
+//@if BothSides
+  float shininessBack,
+//@end
 //@end
   inout LightSums sums)
 {
 //@if LightAmbient
   sums.ambient += factor * texelFetch(radiometryLights, light + 3).rgb;
 //@end
-  float nl = dot(N, L);
-  if (nl > 0.0)
-  {
-    vec3 color = texelFetch(radiometryLights, light + 2).rgb;
-    sums.diffuse += factor * nl * color;
+  vec3 color = factor * texelFetch(radiometryLights, light + 2).rgb;
+  sums.diffuse += max(nl, 0.0) * color;
+//@if BothSides
+  sums.diffuseBack += max(-nl, 0.0) * color;
+//@end
 //@if Specular
 //@if LightSpecular
-    color = texelFetch(radiometryLights, light + 4).rgb;
+  color = factor * texelFetch(radiometryLights, light + 4).rgb;
 //@end
-    sums.specular += factor * specularFactor(N, L, V, nl, shininess) * color;
+//@if BothSides
+  // A light is on one side of the surface: one highlight. Both sides mirror V alike.
+  float side = nl > 0.0 ? 1.0 : -1.0;
+  color *= specularFactor(side * N, L, S, side * nl, nl > 0.0 ? shininess : shininessBack);
+  sums.specular += nl > 0.0 ? color : vec3(0.0);
+  sums.specularBack += nl < 0.0 ? color : vec3(0.0);
+//@else
+  color *= specularFactor(N, L, S, nl, shininess);
+  sums.specular += nl > 0.0 ? color : vec3(0.0);
 //@end
-  }
+//@end
 }
 
 //@if Spot
@@ -115,14 +135,16 @@ float coneFactor(int light, vec3 L)
 //@end
 
 //@if Finite
-float fallOff(int light, float r)
+// At the distance r, of which r2 is the square and `inverse` the inverse.
+float fallOff(int light, float r2, float inverse)
 {
 //@if Attenuation
   vec3 abc = texelFetch(radiometryLights, light + 5).xyz;
+  float r = r2 * inverse;
   return 1.0 / (abc.x + r * (abc.y + r * abc.z));
 //@else
 //@if InverseSquare
-  return 1.0 / (r * r * texelFetch(radiometryLights, light + 5).z);
+  return inverse * inverse;
 //@else
   return 1.0;
 //@end
@@ -130,10 +152,16 @@ float fallOff(int light, float r)
 }
 //@end
 
-// The sums over all lights at P (view coordinates) about N, seen along V (unit, to the viewer).
-LightSums sumLights(vec3 P, vec3 N
+// The sums over all lights at P about N, seen along V (unit, to the viewer).
+LightSums sumLights(vec3 N
+//@if Finite
+  , vec3 P
+//@end
 //@if Specular
   , vec3 V, float shininess
+//@if BothSides
+  , float shininessBack
+//@end
 //@end
   )
 {
@@ -144,14 +172,29 @@ LightSums sumLights(vec3 P, vec3 N
 //@end
 //@if Specular
   sums.specular = vec3(0.0);
+//@if BlinnPhong
+  vec3 S = V;
+//@else
+  vec3 S = 2.0 * dot(N, V) * N - V;
+//@end
+//@end
+//@if BothSides
+  sums.diffuseBack = vec3(0.0);
+//@if Specular
+  sums.specularBack = vec3(0.0);
+//@end
 //@end
 //@if Directional
   for (int i = directionalRange.x; i < directionalRange.y; ++i)
   {
     int light = i * 6;
-    addLight(light, texelFetch(radiometryLights, light).xyz, 1.0, N,
+    vec3 L = texelFetch(radiometryLights, light).xyz;
+    addLight(light, L, dot(N, L), 1.0, N,
 //@if Specular
-      V, shininess,
+      S, shininess,
+//@if BothSides
+      shininessBack,
+//@end
 //@end
       sums);
   }
@@ -161,12 +204,16 @@ LightSums sumLights(vec3 P, vec3 N
   {
     int light = i * 6;
     vec3 toLight = texelFetch(radiometryLights, light).xyz - P;
-    float r = length(toLight);
-    if (r > 0.0)
+    float r2 = dot(toLight, toLight);
+    if (r2 > 0.0)
     {
-      addLight(light, toLight / r, fallOff(light, r), N,
+      float inverse = inversesqrt(r2);
+      addLight(light, inverse * toLight, inverse * dot(N, toLight), fallOff(light, r2, inverse), N,
 //@if Specular
-        V, shininess,
+        S, shininess,
+//@if BothSides
+        shininessBack,
+//@end
 //@end
         sums);
     }
@@ -177,19 +224,20 @@ LightSums sumLights(vec3 P, vec3 N
   {
     int light = i * 6;
     vec3 toLight = texelFetch(radiometryLights, light).xyz - P;
-    float r = length(toLight);
-    if (r > 0.0)
+    float r2 = dot(toLight, toLight);
+    if (r2 > 0.0)
     {
-      vec3 L = toLight / r;
-      float factor = coneFactor(light, L);
-      if (factor > 0.0)
-      {
-        addLight(light, L, factor * fallOff(light, r), N,
+      float inverse = inversesqrt(r2);
+      vec3 L = inverse * toLight;
+      addLight(light, L, inverse * dot(N, toLight),
+        coneFactor(light, L) * fallOff(light, r2, inverse), N,
 //@if Specular
-          V, shininess,
+        S, shininess,
+//@if BothSides
+        shininessBack,
 //@end
-          sums);
-      }
+//@end
+        sums);
     }
   }
 //@end
@@ -202,6 +250,6 @@ LightSums sumLights(vec3 P, vec3 N
 vec3 safeNormal(vec3 n)
 {
   float length2 = dot(n, n);
-  return length2 > 0.0 && length2 < 1e38 ? n / sqrt(length2) : vec3(0.0);
+  return length2 > 0.0 && length2 < 1e38 ? n * inversesqrt(length2) : vec3(0.0);
 }
 //@end
