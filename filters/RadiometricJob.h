@@ -16,6 +16,9 @@
 #include <utility>
 #include <vector>
 
+class SceneAdapter;
+class SurfacePoints;
+
 /// What a simulating filter is to compute: made by vtkRadiometricFilter, read by its subclasses.
 struct vtkRadiometricFilter::Job
 {
@@ -30,6 +33,9 @@ struct vtkRadiometricFilter::Job
   int RanksHere = 1; // of them on this machine, which share its memory
   int Threads = 0;   // NumberOfThreads, or this process's share of the machine's; 0: all
   bool WantVisibility = false; // how much of each light arrives
+  /// Where the input's own arrays are found.
+  const SceneAdapter* Adapter = nullptr;
+  const SurfacePoints* Carriers = nullptr;
 };
 
 /// What it computed.
@@ -45,6 +51,19 @@ struct vtkRadiometricFilter::Result
   };
   std::vector<Quantity> Cells; // by cell; by piece when there are pieces
   std::vector<Quantity> Points; // as Job::Points
+  /// One number for each of them, whatever the bands.
+  struct Scalars
+  {
+    std::string Name;
+    std::string Unit;
+    std::vector<double> Values;
+    bool Integer = false;
+  };
+  std::vector<Scalars> CellScalars;
+  std::vector<Scalars> PointScalars;
+  std::vector<std::pair<std::string, std::vector<double>>> Fields; // further field data
+  std::string Active = "Irradiance"; // the array that is shown first
+  std::string BoundUnit = "W/m^2";   // of the EffectPlan
   radiometry::ConvergenceRecord Convergence;
   std::vector<radiometry::EffectDecision> Effects; // by Effect
   /// Further rows of the EffectPlan: what was left out beside the effects.

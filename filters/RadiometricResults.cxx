@@ -15,12 +15,14 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -35,11 +37,12 @@ struct Photometry
   const char* Photometric;
   const char* Unit;
 };
-constexpr std::array<Photometry, 4> PhotometricNames{ Photometry{ names::Irradiance,
+constexpr std::array<Photometry, 5> PhotometricNames{ Photometry{ names::Irradiance,
                                                         names::Illuminance, "lx" },
   Photometry{ names::Radiosity, names::LuminousExitance, "lm/m^2" },
   Photometry{ names::Radiance, names::Luminance, "cd/m^2" },
-  Photometry{ names::Dose, names::LuminousExposure, "lx s" } };
+  Photometry{ names::Dose, names::LuminousExposure, "lx s" },
+  Photometry{ names::ImageIrradiance, names::ImageIlluminance, "lx" } };
 
 /// The photometric counterpart of a quantity, "IrradianceBack" included; null: none.
 const Photometry* Counterpart(const std::string& name, std::string& renamed)
@@ -118,6 +121,23 @@ void AddStrings(vtkFieldData* data, const char* name, const std::vector<std::str
     array->InsertNextValue(value);
   }
   data->AddArray(array);
+}
+
+/// Appends what an earlier filter wrote about other things: what stands before the mark is not there yet.
+void KeepStrings(
+  vtkFieldData* data, const char* name, const char* mark, std::vector<std::string>& values)
+{
+  const auto head = [mark](const std::string& s) { return s.substr(0, s.find(mark)); };
+  auto* before = vtkStringArray::SafeDownCast(data->GetAbstractArray(name));
+  for (vtkIdType k = 0; before && k < before->GetNumberOfValues(); ++k)
+  {
+    const std::string value = before->GetValue(k);
+    if (std::none_of(values.begin(), values.end(),
+          [&](const std::string& v) { return head(v) == head(value); }))
+    {
+      values.push_back(value);
+    }
+  }
 }
 
 template <typename Array>
@@ -214,6 +234,25 @@ void RadiometricResults::AddLightShares(const std::vector<Result::Shares>& share
   }
 }
 
+void RadiometricResults::AddScalars(const std::vector<Result::Scalars>& scalars, std::size_t first,
+  const std::vector<std::int32_t>& numbers, vtkIdType count, vtkFieldData* data)
+{
+  for (const Result::Scalars& s : scalars)
+  {
+    const auto array = vtk::TakeSmartPointer(
+      s.Integer ? static_cast<vtkDataArray*>(vtkIntArray::New()) : vtkDoubleArray::New());
+    array->SetName(s.Name.c_str());
+    array->SetNumberOfTuples(count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const std::ptrdiff_t at = numbers.empty() ? static_cast<std::ptrdiff_t>(first) + i
+                                                : numbers[static_cast<std::size_t>(i)];
+      array->SetTuple1(i, at < 0 ? 0.0 : s.Values[static_cast<std::size_t>(at)]);
+    }
+    data->AddArray(array);
+  }
+}
+
 void RadiometricResults::WriteSurface(const Result& result,
   const std::vector<SceneAdapter::Block>& blocks, const SurfacePoints& points,
   vtkDataObject* output, vtkDataObject* input) const
@@ -231,7 +270,9 @@ void RadiometricResults::WriteSurface(const Result& result,
         leaf->GetPointData());
       AddLightShares(result.PointShares, result.LightKeys.size(), carrier.First, carrier.Numbers,
         leaf->GetNumberOfPoints(), leaf->GetPointData());
-      leaf->GetPointData()->SetActiveScalars(names::Irradiance);
+      AddScalars(result.PointScalars, carrier.First, carrier.Numbers, leaf->GetNumberOfPoints(),
+        leaf->GetPointData());
+      leaf->GetPointData()->SetActiveScalars(result.Active.c_str());
     }
     else
     {
@@ -239,7 +280,9 @@ void RadiometricResults::WriteSurface(const Result& result,
         result.Cells, block.FirstCell, block.Numbers, block.Cells, leaf->GetCellData());
       AddLightShares(result.CellShares, result.LightKeys.size(), block.FirstCell, block.Numbers,
         block.Cells, leaf->GetCellData());
-      leaf->GetCellData()->SetActiveScalars(names::Irradiance);
+      AddScalars(
+        result.CellScalars, block.FirstCell, block.Numbers, block.Cells, leaf->GetCellData());
+      leaf->GetCellData()->SetActiveScalars(result.Active.c_str());
     }
     this->AddFieldData(result, leaf);
   }
@@ -278,9 +321,24 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
     }
     data->AddArray(lights);
   }
+  for (const Result::Scalars& s : result.Cells.empty() ? result.PointScalars : result.CellScalars)
+  {
+    units.push_back(s.Name + " [" + s.Unit + "]");
+  }
+  for (const auto& [name, numbers] : result.Fields)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(static_cast<int>(numbers.size()));
+    array->InsertNextTuple(numbers.data());
+    data->AddArray(array);
+  }
+  KeepStrings(data, "RadiometryUnits", " [", units);
   AddStrings(data, "RadiometryUnits", units);
   AddStrings(data, "RadiometryVersion", { VTKRADIOMETRY_VERSION });
-  AddStrings(data, "RadiometryOptions", { this->Filter + ": " + this->Options });
+  std::vector<std::string> options{ this->Filter + ": " + this->Options };
+  KeepStrings(data, "RadiometryOptions", ": ", options);
+  AddStrings(data, "RadiometryOptions", options);
   AddStrings(data, "RadiometryOutcome", { result.Outcome });
   if (!result.Method.empty())
   {
@@ -302,7 +360,7 @@ void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) con
     decision->InsertNextValue(what);
     why->InsertNextValue(reason);
     bound->InsertNextValue(value);
-    unit->InsertNextValue("W/m^2");
+    unit->InsertNextValue(result.BoundUnit);
     seconds->InsertNextValue(spent);
   };
   for (std::size_t k = 0; k < result.Effects.size(); ++k)

@@ -55,6 +55,8 @@ private:
   static void AddLightShares(const std::vector<Result::Shares>& shares, std::size_t lights,
     std::size_t first, const std::vector<std::int32_t>& numbers, vtkIdType count,
     vtkFieldData* data);
+  static void AddScalars(const std::vector<Result::Scalars>& scalars, std::size_t first,
+    const std::vector<std::int32_t>& numbers, vtkIdType count, vtkFieldData* data);
   void AddFieldData(const Result& result, vtkDataObject* output) const;
 
   int Bands;

@@ -76,6 +76,8 @@ public:
   /// Of other arrays of cells than those of materials only these come along.
   void Gather(const ControllerCommunicator* ranks);
   std::vector<std::string> FurtherArrays;
+  /// Arrays of cells or points that have the bands of the scene, too.
+  std::vector<std::string> FurtherSpectra;
 
   /// Checks everything and makes the scene.
   radiometry::Scene Build();

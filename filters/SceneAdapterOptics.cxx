@@ -185,6 +185,11 @@ int SceneAdapter::FindBands() const
       see(FindArray(block, std::string(names::BackPrefix) + name),
         block.Name + names::BackPrefix + name);
     }
+    for (const std::string& name : this->FurtherSpectra)
+    {
+      see(block.Data->GetCellData()->GetArray(name.c_str()), block.Name + name);
+      see(block.Data->GetPointData()->GetArray(name.c_str()), block.Name + name);
+    }
   }
   for (const Block& block : this->Occluders)
   {

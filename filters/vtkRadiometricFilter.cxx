@@ -247,6 +247,7 @@ int vtkRadiometricFilter::RequestData(
       adapter.AddOccluder(vtkDataObject::GetData(inputs[2], k));
     }
     adapter.FurtherArrays = this->CellArraysRead();
+    adapter.FurtherSpectra = adapter.FurtherArrays;
     adapter.Gather(ranks);
     const radiometry::Scene scene = adapter.Build();
     const std::vector<double> wavelengths = CheckedWavelengths(stated, scene.Optics.Bands);
@@ -262,10 +263,12 @@ int vtkRadiometricFilter::RequestData(
     {
       job.Switches.push_back(static_cast<radiometry::EffectSwitch>(choice));
     }
-    const SurfacePoints points(adapter, scene, this->MetersPerUnit,
-      this->SampleLocation == POINTS, this->FeatureAngle);
+    job.WantCells = !this->WantsPoints(adapter);
+    const SurfacePoints points(
+      adapter, scene, this->MetersPerUnit, !job.WantCells, this->FeatureAngle);
     job.Points = points.Points();
-    job.WantCells = this->SampleLocation == CELLS;
+    job.Adapter = &adapter;
+    job.Carriers = &points;
 
     Result result;
     job.WantVisibility = this->LightVisibility;
@@ -278,7 +281,7 @@ int vtkRadiometricFilter::RequestData(
     options << "RelativeTolerance=" << this->RelativeTolerance
             << "; AbsoluteTolerance=" << this->AbsoluteTolerance
             << "; TimeBudget=" << this->TimeBudget
-            << "; SampleLocation=" << (this->SampleLocation == CELLS ? "Cells" : "Points")
+            << "; SampleLocation=" << (job.WantCells ? "Cells" : "Points")
             << "; TwoSided=" << this->TwoSided << "; MetersPerUnit=" << this->MetersPerUnit
             << "; ExposureTime=" << this->ExposureTime
             << "; CellsWithoutArea=" << adapter.CellsWithoutArea() << "; GlobalAmbient=";

@@ -11,6 +11,7 @@
 #include <vector>
 
 class ControllerCommunicator;
+class SceneAdapter;
 class vtkMatrix4x4;
 class vtkMultiProcessController;
 
@@ -218,8 +219,10 @@ protected:
 
   /// The subclass's physics: reads the job, calls the core, fills the result.
   virtual void Simulate(Job& job, Result& result) = 0;
-  /// Cell arrays of the surface that it reads beside those of materials.
+  /// Cell arrays of the surface that it reads beside those of materials; of N bands.
   virtual std::vector<std::string> CellArraysRead() const { return {}; }
+  /// Whether results are wanted at points.
+  virtual bool WantsPoints(const SceneAdapter&) const { return this->SampleLocation == POINTS; }
 
   double RelativeTolerance = 0.01;
   double AbsoluteTolerance = 0.0;

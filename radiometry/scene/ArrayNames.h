@@ -54,6 +54,12 @@ inline constexpr char LuminousExposure[] = "LuminousExposure"; // its photometri
 inline constexpr char LightVisibility[] = "LightVisibility"; // share of each light that arrives
 // Field data: which lights those are, a tuple a light: type, position, direction as in its input
 inline constexpr char LightVisibilityLights[] = "LightVisibilityLights";
+inline constexpr char SolidAngle[] = "SolidAngle";                   // of a cell from an eye
+inline constexpr char ProjectedSolidAngle[] = "ProjectedSolidAngle";
+inline constexpr char Facing[] = "Facing"; // 1 front, -1 back, 0 neither
+inline constexpr char OffAxisAngle[] = "OffAxisAngle"; // degrees
+inline constexpr char ImageIrradiance[] = "ImageIrradiance"; // in a camera
+inline constexpr char ImageIlluminance[] = "ImageIlluminance";
 inline constexpr char BackSuffix[] = "Back";   // IrradianceBack, ...
 inline constexpr char ErrorSuffix[] = "Error"; // IrradianceError, ...
 

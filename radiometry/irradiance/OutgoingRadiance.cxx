@@ -1,0 +1,506 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/OutgoingRadiance.h"
+
+#include "radiometry/geometry/BoxTree.h"
+#include "radiometry/geometry/Sampling.h"
+#include "radiometry/visibility/PointStarts.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+constexpr std::size_t Sets = 8;
+constexpr std::uint32_t FewestSamples = 8; // of a set
+constexpr std::uint32_t MostSamples = 512;
+/// Student's t of seven degrees of freedom, 95 % on both sides.
+constexpr double Deviations = 2.365;
+
+/// A piece of a receiver with the side that is seen of it.
+struct Piece
+{
+  Triangle3 Corners; // all three the same: a point
+  std::int32_t Triangle;
+  std::int32_t Cell;
+  Vec3 Normal; // toward the viewer
+  bool Front;
+  double Share; // of the receiver's area
+};
+
+/// What one receiver sends: the parts of it that are seen.
+struct Receiver
+{
+  std::vector<Piece> Pieces;
+  std::uint64_t Key;
+  const float* Known = nullptr; // by light
+};
+
+/// Means of sets of samples that grow.
+class SampleSets
+{
+public:
+  explicit SampleSets(std::size_t bands)
+    : Bands(bands)
+    , Sums(Sets * bands, 0.0)
+    , Doubts(Sets * bands, 0.0)
+  {
+  }
+  double* Sum(std::size_t set) { return this->Sums.data() + set * this->Bands; }
+  double* Doubt(std::size_t set) { return this->Doubts.data() + set * this->Bands; }
+  void Find(std::uint32_t each, std::size_t band, double& mean, double& error) const
+  {
+    double sum = 0.0, squares = 0.0, doubt = 0.0;
+    for (std::size_t s = 0; s < Sets; ++s)
+    {
+      const double v = this->Sums[s * this->Bands + band] / each;
+      sum += v;
+      doubt += this->Doubts[s * this->Bands + band] / each;
+    }
+    mean = sum / Sets;
+    for (std::size_t s = 0; s < Sets; ++s)
+    {
+      const double d = this->Sums[s * this->Bands + band] / each - mean;
+      squares += d * d;
+    }
+    error = Deviations * std::sqrt(squares / (Sets * (Sets - 1.0))) + doubt / Sets;
+  }
+
+private:
+  std::size_t Bands;
+  std::vector<double> Sums;
+  std::vector<double> Doubts;
+};
+
+/// Adds what receivers send by lobes and panes.
+class Sampler
+{
+public:
+  Sampler(const RadianceTracer& tracer, const Viewer& viewer, const RadianceOptions& options,
+    std::size_t bands, std::size_t lights)
+    : Tracer(tracer)
+    , Eye(viewer)
+    , Options(options)
+    , Bands(bands)
+    , Lights(lights)
+  {
+  }
+
+  /// Adds to values and errors (bands); `most` samples a set. Returns the rays.
+  std::int64_t Add(
+    const Receiver& receiver, std::uint32_t most, double* values, double* errors) const
+  {
+    SampleSets sets(this->Bands);
+    std::vector<double> known(receiver.Known ? this->Lights : 0);
+    std::copy_n(receiver.Known, known.size(), known.begin());
+    std::int64_t rays = 0;
+    std::uint32_t done = 0;
+    std::vector<double> mean(this->Bands), error(this->Bands);
+    for (std::uint32_t each = FewestSamples; each <= most; each *= 2)
+    {
+      for (std::size_t s = 0; s < Sets; ++s)
+      {
+        const SobolSequence places(Hash64(receiver.Key, 3 * s));
+        const SobolSequence lobes(Hash64(receiver.Key, 3 * s + 1));
+        const SobolSequence panels(Hash64(receiver.Key, 3 * s + 2));
+        for (std::uint32_t k = done; k < each; ++k)
+        {
+          const auto at = places(k);
+          RadianceNumbers numbers{ lobes(k), panels(k), Hash64(Hash64(receiver.Key, s), k) };
+          rays += this->AddOne(receiver, at, numbers, known.empty() ? nullptr : known.data(),
+            sets.Sum(s), sets.Doubt(s));
+        }
+      }
+      done = each;
+      bool fine = true;
+      for (std::size_t b = 0; b < this->Bands; ++b)
+      {
+        sets.Find(done, b, mean[b], error[b]);
+        fine = fine &&
+          error[b] <= std::max(this->Options.AbsoluteTolerance,
+                        this->Options.RelativeTolerance * (values[b] + mean[b]));
+      }
+      if (fine)
+      {
+        break;
+      }
+    }
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      values[b] += mean[b];
+      errors[b] += error[b];
+    }
+    return rays;
+  }
+
+private:
+  std::int64_t AddOne(const Receiver& receiver, const std::array<double, 4>& at,
+    const RadianceNumbers& numbers, const double* known, double* sum, double* doubt) const
+  {
+    // The piece by its share; what is left of the number is used again.
+    double u = at[0];
+    for (const Piece& piece : receiver.Pieces)
+    {
+      if (u >= piece.Share)
+      {
+        u -= piece.Share;
+        continue;
+      }
+      RadianceTracer::Place place;
+      place.End = { TrianglePoint(piece.Corners, u / piece.Share, at[1]), piece.Triangle };
+      place.Normal = piece.Normal;
+      place.Cell = piece.Cell;
+      place.Front = piece.Front;
+      place.Toward = this->Eye.Toward(place.End.Point);
+      place.Known = known;
+      return Dot(place.Toward, place.Normal) > 0.0
+        ? this->Tracer.AddSample(place, numbers, sum, doubt)
+        : 0;
+    }
+    return 0;
+  }
+
+  const RadianceTracer& Tracer;
+  const Viewer& Eye;
+  const RadianceOptions& Options;
+  std::size_t Bands;
+  std::size_t Lights;
+};
+
+/// Samples all receivers that call for it, in a first round a few of each, where time is short.
+void SampleAll(const std::vector<Receiver>& receivers, const RadianceTracer& tracer,
+  const Viewer& viewer, std::size_t bands, std::size_t lights, const RadianceOptions& options,
+  const StageProgress& stage, ConvergenceRecord* record, RadianceResult& result)
+{
+  const ConvergenceRecord clock;
+  std::vector<std::size_t> calling;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    if (std::any_of(receivers[i].Pieces.begin(), receivers[i].Pieces.end(),
+          [&](const Piece& p) { return tracer.Calls(p.Cell, p.Front); }))
+    {
+      calling.push_back(i);
+    }
+  }
+  result.Sampled = calling.size();
+  const std::vector<double> values = result.Values;
+  const std::vector<double> errors = result.Errors;
+  const Sampler sampler(tracer, viewer, options, bands, lights);
+  std::atomic<std::int64_t> rays{ 0 };
+  std::atomic<bool> expired{ false };
+  const auto run = [&](std::uint32_t most, double begin, double end, bool first) {
+    StageProgress part = stage;
+    part.Begin = stage.Begin + (stage.End - stage.Begin) * begin;
+    part.End = stage.Begin + (stage.End - stage.Begin) * end;
+    ParallelFor(
+      calling.size(), options.Threads, part,
+      [&](std::size_t k) {
+        if (!first && options.SecondsLeft > 0.0 && clock.Elapsed() > options.SecondsLeft)
+        {
+          expired = true;
+          return;
+        }
+        const std::size_t row = calling[k] * bands;
+        std::vector<double> value(values.begin() + static_cast<std::ptrdiff_t>(row),
+          values.begin() + static_cast<std::ptrdiff_t>(row + bands));
+        std::vector<double> error(errors.begin() + static_cast<std::ptrdiff_t>(row),
+          errors.begin() + static_cast<std::ptrdiff_t>(row + bands));
+        rays += sampler.Add(receivers[calling[k]], most, value.data(), error.data());
+        std::copy(value.begin(), value.end(), result.Values.begin() + static_cast<std::ptrdiff_t>(row));
+        std::copy(error.begin(), error.end(), result.Errors.begin() + static_cast<std::ptrdiff_t>(row));
+      },
+      2e-6 * 8 * most);
+    result.Rays = rays;
+    if (record)
+    {
+      double sum = 0.0, doubt = 0.0;
+      for (std::size_t k = 0; k < result.Values.size(); ++k)
+      {
+        sum += result.Values[k];
+        doubt += result.Errors[k];
+      }
+      const auto count = static_cast<double>(std::max<std::size_t>(1, result.Values.size()));
+      record->Add("radiance", sum > 0.0 ? doubt / sum : 0.0, doubt / count, rays);
+    }
+  };
+  if (options.SecondsLeft > 0.0 && !calling.empty())
+  {
+    run(FewestSamples, 0.0, 0.2, true);
+    run(MostSamples, 0.2, 1.0, false);
+  }
+  else
+  {
+    run(MostSamples, 0.0, 1.0, true);
+  }
+  result.TimedOut = expired;
+}
+
+/// A bound of what effects that are off may change of one receiver.
+double LeftOutOf(const Receiver& receiver, const RadianceTracer& full, const RadianceTracer& run,
+  const Scene& scene, const RadianceEffects& effects)
+{
+  const bool lobes = !effects.Specular || !effects.Occlusion || !effects.Environment ||
+    !effects.SpotShape || !effects.Attenuation;
+  double bound = 0.0;
+  for (const Piece& p : receiver.Pieces)
+  {
+    if (!effects.BackFaces && !p.Front && full.Sends(p.Cell, false))
+    {
+      bound = std::max(bound, full.GreatestRadiance());
+    }
+    if (!full.Calls(p.Cell, p.Front))
+    {
+      continue;
+    }
+    const Vec3 center = Centroid(p.Corners);
+    double radius = 0.0;
+    for (const Vec3& corner : p.Corners)
+    {
+      radius = std::max(radius, Length(corner - center));
+    }
+    const auto row = static_cast<std::size_t>(p.Cell) * static_cast<std::size_t>(scene.Optics.Bands);
+    double specular = 0.0, transmitted = 0.0;
+    for (int b = 0; b < scene.Optics.Bands; ++b)
+    {
+      const std::size_t at = row + static_cast<std::size_t>(b);
+      for (const std::vector<double>& side : scene.Optics.SpecularReflectance)
+      {
+        specular = std::max(specular, side.empty() ? 0.0 : side[at]);
+      }
+      transmitted = std::max(
+        transmitted, scene.Optics.Transmittance.empty() ? 0.0 : scene.Optics.Transmittance[at]);
+    }
+    double exponent = 0.0;
+    for (const std::vector<double>& side : scene.Optics.Shininess)
+    {
+      exponent =
+        std::max(exponent, side.empty() ? DefaultShininess : side[static_cast<std::size_t>(p.Cell)]);
+    }
+    // Highlights by f E; the rest by the greatest radiance there is, which lobes and panes cannot raise.
+    const double lights = std::max(full.GreatestBeams(center, radius), run.GreatestBeams(center, radius));
+    double most = lobes ? specular * full.GreatestRadiance() : 0.0;
+    if (lobes && specular > 0.0 && exponent < MirrorShininess && lights > 0.0)
+    {
+      most += specular * (exponent + 2.0) / (2.0 * Pi) * lights;
+    }
+    if (!effects.Transmission || !effects.Environment)
+    {
+      most += transmitted * full.GreatestRadiance();
+    }
+    bound = std::max(bound, most);
+  }
+  return bound;
+}
+
+RadianceResult Compute(const std::vector<Receiver>& receivers, const Scene& scene,
+  const OcclusionScene& occluders, const DiffuseLight& diffuse, const Viewer& viewer,
+  const RadianceOptions& options, const StageProgress& stage, ConvergenceRecord* record,
+  RadianceResult result)
+{
+  const RadianceTracer tracer(scene, occluders, diffuse, options.Effects);
+  SampleAll(receivers, tracer, viewer, static_cast<std::size_t>(scene.Optics.Bands),
+    scene.Lights.size(), options, stage, record, result);
+  const RadianceEffects& e = options.Effects;
+  if (!(e.Occlusion && e.Specular && e.Transmission && e.Environment && e.SpotShape &&
+        e.Attenuation && e.BackFaces))
+  {
+    const RadianceTracer full(scene, occluders, diffuse, RadianceEffects{});
+    for (const Receiver& receiver : receivers)
+    {
+      result.LeftOut = std::max(result.LeftOut, LeftOutOf(receiver, full, tracer, scene, e));
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+DiffuseLight ReflectDiffusely(
+  const Scene& scene, const std::array<FieldValues, 2>& irradiance, bool emission)
+{
+  const Materials& optics = scene.Optics;
+  const auto bands = static_cast<std::size_t>(optics.Bands);
+  const auto own = [](const std::array<std::vector<double>, 2>& sides, std::size_t side,
+                     std::size_t at) {
+    const std::vector<double>& values = sides[side].empty() ? sides[0] : sides[side];
+    return values.empty() ? 0.0 : values[at];
+  };
+  DiffuseLight light;
+  for (std::size_t side = 0; side < 2; ++side)
+  {
+    const bool any = side == 0 || !irradiance[1].Values.empty() ||
+      std::any_of(optics.TwoSided.begin(), optics.TwoSided.end(), [](auto t) { return t != 0; }) ||
+      !optics.DiffuseTransmittance.empty();
+    if (!any)
+    {
+      continue;
+    }
+    light.Exitance[side].assign(scene.Cells * bands, 0.0);
+    light.Error[side].assign(scene.Cells * bands, 0.0);
+    for (std::size_t at = 0; at < scene.Cells * bands; ++at)
+    {
+      const std::size_t cell = at / bands;
+      const double through =
+        optics.DiffuseTransmittance.empty() ? 0.0 : optics.DiffuseTransmittance[at];
+      const bool reflects = side == 0 || (!optics.TwoSided.empty() && optics.TwoSided[cell] != 0);
+      double value = reflects && emission ? own(optics.EmittedExitance, side, at) : 0.0;
+      double error = 0.0;
+      const auto add = [&](double share, const FieldValues& e) {
+        value += share > 0.0 && !e.Values.empty() ? share * e.Values[at] : 0.0;
+        error += share > 0.0 && !e.Errors.empty() ? share * e.Errors[at] : 0.0;
+      };
+      add(reflects ? own(optics.DiffuseReflectance, side, at) : 0.0, irradiance[side]);
+      add(through, irradiance[1 - side]);
+      light.Exitance[side][at] = value;
+      light.Error[side][at] = error;
+    }
+  }
+  return light;
+}
+
+Vec3 MiddleOf(const Scene& scene, double* radius)
+{
+  Box3 box;
+  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
+  {
+    for (const Vec3& corner : scene.TriangleAt(t))
+    {
+      box.Add(corner);
+    }
+  }
+  const bool any = scene.ReceiverTriangles > 0;
+  if (radius)
+  {
+    *radius = any ? 0.5 * Length(box.Size()) : 0.0;
+  }
+  return any ? 0.5 * (box.Min + box.Max) : Vec3{};
+}
+
+Viewer HomeViewer(const Scene& scene)
+{
+  double radius = 0.0;
+  Viewer viewer;
+  const Vec3 middle = MiddleOf(scene, &radius);
+  constexpr double HalfAngle = 15.0 * Pi / 180.0;
+  viewer.Eye = middle + Vec3{ 0.0, 0.0, (radius > 0.0 ? radius : 1.0) / std::sin(HalfAngle) };
+  return viewer;
+}
+
+RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene& occluders,
+  const DiffuseLight& diffuse, const Viewer& viewer, const std::vector<std::int32_t>& cells,
+  const RadianceOptions& options, const StageProgress& stage, ConvergenceRecord* record)
+{
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  std::vector<std::int32_t> wanted(scene.Cells, -1);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    wanted[static_cast<std::size_t>(cells[i])] = static_cast<std::int32_t>(i);
+  }
+  std::vector<Receiver> receivers(cells.size());
+  std::vector<double> areas(cells.size(), 0.0);
+  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
+  {
+    const std::int32_t cell = scene.TriangleCell[t];
+    const std::int32_t i = wanted[static_cast<std::size_t>(cell)];
+    if (i < 0)
+    {
+      continue;
+    }
+    const Triangle3 corners = scene.TriangleAt(t);
+    const Vec3 normal2 = AreaNormal2(corners);
+    const Vec3 normal = Normalized(normal2);
+    const double area = 0.5 * Length(normal2);
+    areas[static_cast<std::size_t>(i)] += area;
+    const int side = SeenSide(corners, normal, viewer);
+    if (side != 0)
+    {
+      receivers[static_cast<std::size_t>(i)].Pieces.push_back({ corners,
+        static_cast<std::int32_t>(t), cell, side > 0 ? normal : -normal, side > 0, area });
+    }
+  }
+  RadianceResult result;
+  result.Values.assign(cells.size() * bands, 0.0);
+  result.Errors.assign(cells.size() * bands, 0.0);
+  const RadianceTracer sides(scene, occluders, diffuse, options.Effects);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    Receiver& receiver = receivers[i];
+    receiver.Key = static_cast<std::uint64_t>(cells[i]);
+    receiver.Known = options.Known.empty() ? nullptr : &options.Known[i * scene.Lights.size()];
+    for (Piece& piece : receiver.Pieces)
+    {
+      piece.Share = areas[i] > 0.0 ? piece.Share / areas[i] : 0.0;
+      const std::size_t side = piece.Front ? 0 : 1;
+      if (!sides.Sends(piece.Cell, piece.Front))
+      {
+        continue;
+      }
+      const std::size_t row = static_cast<std::size_t>(piece.Cell) * bands;
+      for (std::size_t b = 0; b < bands; ++b)
+      {
+        result.Values[i * bands + b] += piece.Share * diffuse.Exitance[side][row + b] / Pi;
+        result.Errors[i * bands + b] += diffuse.Error[side].empty()
+          ? 0.0
+          : piece.Share * diffuse.Error[side][row + b] / Pi;
+      }
+    }
+  }
+  return Compute(
+    receivers, scene, occluders, diffuse, viewer, options, stage, record, std::move(result));
+}
+
+RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene& occluders,
+  const DiffuseLight& diffuse, const Viewer& viewer, const std::vector<SurfacePoint>& points,
+  const DiffuseLight& here, const RadianceOptions& options, const StageProgress& stage,
+  ConvergenceRecord* record)
+{
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  std::vector<Receiver> receivers(points.size());
+  RadianceResult result;
+  result.Values.assign(points.size() * bands, 0.0);
+  result.Errors.assign(points.size() * bands, 0.0);
+  const RadianceTracer sides(scene, occluders, diffuse, options.Effects);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const SurfacePoint& p = points[i];
+    Receiver& receiver = receivers[i];
+    receiver.Key = i;
+    receiver.Known = options.Known.empty() ? nullptr : &options.Known[i * scene.Lights.size()];
+    if (p.Triangle < 0)
+    {
+      continue;
+    }
+    const double cosine = Dot(p.Normal, viewer.Toward(p.Point));
+    if (cosine == 0.0)
+    {
+      continue;
+    }
+    const bool front = cosine > 0.0;
+    const std::vector<PointStart> starts = PointStarts(scene, occluders, p);
+    for (const PointStart& start : starts)
+    {
+      const std::int32_t cell = scene.TriangleCell[static_cast<std::size_t>(start.End.Triangle)];
+      const Vec3& at = start.End.Point;
+      receiver.Pieces.push_back({ { at, at, at }, start.End.Triangle, cell,
+        front ? p.Normal : -p.Normal, front, 1.0 / static_cast<double>(starts.size()) });
+    }
+    const std::size_t side = front ? 0 : 1;
+    const std::int32_t cell = scene.TriangleCell[static_cast<std::size_t>(p.Triangle)];
+    for (std::size_t b = 0; b < bands && sides.Sends(cell, front) && !here.Exitance[side].empty();
+         ++b)
+    {
+      result.Values[i * bands + b] = here.Exitance[side][i * bands + b] / Pi;
+      result.Errors[i * bands + b] =
+        here.Error[side].empty() ? 0.0 : here.Error[side][i * bands + b] / Pi;
+    }
+  }
+  return Compute(
+    receivers, scene, occluders, diffuse, viewer, options, stage, record, std::move(result));
+}
+
+} // namespace radiometry

@@ -1,0 +1,661 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/RadianceTracer.h"
+
+#include "radiometry/geometry/PolygonTriangulation.h"
+#include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/BeamLights.h"
+#include "radiometry/scene/Reflectance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace radiometry
+{
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+constexpr int MostReflections = 1000;
+
+/// The values of a side; the back has the front's where it has none of its own.
+const std::vector<double>& Of(const std::array<std::vector<double>, 2>& sides, bool front)
+{
+  return front || sides[1].empty() ? sides[0] : sides[1];
+}
+
+double Uniform(std::uint64_t& state)
+{
+  state = Hash64(state);
+  return (static_cast<double>(state >> 12) + 0.5) * 0x1p-52;
+}
+
+/// Where a ray crosses a triangle from its front: the distance in units of `way`; below 0: nowhere.
+double Crossing(const Triangle3& t, const Vec3& from, const Vec3& way)
+{
+  const Vec3 e1 = t[1] - t[0];
+  const Vec3 e2 = t[2] - t[0];
+  const Vec3 n = Cross(e1, e2);
+  const double fall = -Dot(n, way);
+  if (!(fall > 0.0))
+  {
+    return -1.0;
+  }
+  const Vec3 r = from - t[0];
+  const Vec3 c = Cross(r, way);
+  const double u = -Dot(e2, c) / fall;
+  const double v = Dot(e1, c) / fall;
+  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 ? Dot(n, r) / fall : -1.0;
+}
+
+} // namespace
+
+/// A path from the eye, at its last place.
+struct RadianceTracer::Walk
+{
+  Place At;
+  Vec3 Way; // of the next ray
+  std::vector<double> Weight;
+  double* Radiance = nullptr;
+  double* Doubt = nullptr;
+  std::uint64_t State = 0;
+  std::int64_t Rays = 0;
+  Vec3 Source;          // where the way was last chosen ...
+  double Density = 0.0; // ... and with which density; infinite: by a mirror, or from the eye
+  std::vector<double> Passed; // by panes on the way to a light
+
+  void Add(std::size_t band, double radiance) { this->Radiance[band] += this->Weight[band] * radiance; }
+};
+
+RadianceTracer::RadianceTracer(const Scene& scene, const OcclusionScene& occluders,
+  const DiffuseLight& diffuse, const RadianceEffects& effects)
+  : Geometry(scene)
+  , Occluders(occluders)
+  , Diffuse(diffuse)
+  , Effects(effects)
+  , Bands(static_cast<std::size_t>(scene.Optics.Bands))
+  , Surfaces(scene, effects.Specular, effects.Transmission, effects.BackFaces)
+  , Extent(radiometry::Extent(scene))
+{
+  const int panes = effects.Transmission && occluders.HasPanes() ? scene.Optics.Bands : 0;
+  for (std::size_t k = 0; k < scene.Lights.size(); ++k)
+  {
+    const Light& light = scene.Lights[k];
+    if (!light.Enabled || !(Magnitude(light) > 0.0))
+    {
+      continue;
+    }
+    if (light.Type == LightType::Environment)
+    {
+      if (effects.Environment)
+      {
+        this->Skies.push_back({ &light, SkyFrame(light.Direction, light.Reference) });
+      }
+      continue;
+    }
+    if (light.Type != LightType::Area)
+    {
+      Beam beam;
+      beam.Flux = std::make_unique<SourceFlux>(light, effects.SpotShape, effects.Attenuation);
+      beam.Shadow = std::make_unique<ShadowCutter>(*beam.Flux, nullptr, occluders, panes);
+      beam.Index = k;
+      this->Beams.push_back(std::move(beam));
+    }
+  }
+  this->AddPanels();
+  for (const std::vector<double>& side : diffuse.Exitance)
+  {
+    for (const double b : side)
+    {
+      this->Greatest = std::max(this->Greatest, b / Pi);
+    }
+  }
+  for (const SkyLight& sky : this->Skies)
+  {
+    const auto& radiance = sky.Source->Environment;
+    double most = 1.0;
+    if (radiance)
+    {
+      const std::vector<double>& map = radiance->Values();
+      most = map.empty() ? 0.0 : *std::max_element(map.begin(), map.end());
+      for (int e = -89; map.empty() && e < 90; e += 2) // analytic skies are smooth
+      {
+        for (int a = 0; a < 360; a += 5)
+        {
+          const double h = e * Pi / 180.0, w = a * Pi / 180.0;
+          most = std::max(most,
+            radiance->At({ std::cos(h) * std::cos(w), std::cos(h) * std::sin(w), std::sin(h) }));
+        }
+      }
+      most *= map.empty() ? 1.2 : 1.0;
+    }
+    this->Greatest += most * Magnitude(*sky.Source);
+  }
+}
+
+void RadianceTracer::AddPanel(
+  const Triangle3& corners, const double* exitance, std::int32_t triangle, bool front)
+{
+  Panel panel;
+  panel.Corners = corners;
+  panel.Normal = Normalized(AreaNormal2(corners));
+  panel.Area = radiometry::Area(corners);
+  panel.Triangle = triangle;
+  panel.Front = front;
+  double most = 0.0;
+  for (std::size_t b = 0; b < this->Bands; ++b)
+  {
+    panel.Radiance.push_back(exitance[b] / Pi);
+    most = std::max(most, panel.Radiance.back());
+  }
+  panel.Chance = most * panel.Area;
+  if (panel.Chance > 0.0)
+  {
+    this->Greatest = std::max(this->Greatest, most);
+    this->Panels.push_back(std::move(panel));
+  }
+}
+
+void RadianceTracer::AddPanels()
+{
+  for (const Light& light : this->Geometry.Lights)
+  {
+    if (!light.Enabled || light.Type != LightType::Area || !(Magnitude(light) > 0.0))
+    {
+      continue;
+    }
+    for (Triangle3 t : TriangulatePolygon(light.Polygon, "Polygons", light.Index))
+    {
+      this->AddPanel(t, light.Intensity.data(), -1, true);
+      if (light.TwoSided)
+      {
+        std::swap(t[1], t[2]);
+        this->AddPanel(t, light.Intensity.data(), -1, true);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < this->Panels.size(); ++k)
+  {
+    this->Lights.push_back(k);
+  }
+  const auto& emitted = this->Geometry.Optics.EmittedExitance;
+  for (std::size_t t = 0; t < this->Geometry.ReceiverTriangles; ++t)
+  {
+    const std::int32_t cell = this->Geometry.TriangleCell[t];
+    for (int side = 0; side < 2; ++side)
+    {
+      const std::vector<double>& values = Of(emitted, side == 0);
+      if (values.empty() || !this->Sends(cell, side == 0))
+      {
+        continue;
+      }
+      const double* exitance = values.data() + static_cast<std::size_t>(cell) * this->Bands;
+      const bool two = !this->Geometry.Optics.TwoSided.empty() &&
+        this->Geometry.Optics.TwoSided[static_cast<std::size_t>(cell)] != 0;
+      Triangle3 corners = this->Geometry.TriangleAt(t);
+      if (side == 1)
+      {
+        std::swap(corners[1], corners[2]);
+      }
+      const std::size_t before = this->Panels.size();
+      if (side == 0 || two)
+      {
+        this->AddPanel(corners, exitance, static_cast<std::int32_t>(t), side == 0);
+      }
+      if (this->Panels.size() > before)
+      {
+        this->PanelOf.resize(this->Geometry.ReceiverTriangles, { -1, -1 });
+        this->PanelOf[t][static_cast<std::size_t>(side)] = static_cast<std::int32_t>(before);
+      }
+    }
+  }
+  double sum = 0.0;
+  for (const Panel& panel : this->Panels)
+  {
+    sum += panel.Chance;
+    this->Cumulative.push_back(sum);
+  }
+  for (Panel& panel : this->Panels)
+  {
+    panel.Chance /= sum;
+  }
+}
+
+bool RadianceTracer::Sends(std::int32_t cell, bool front) const
+{
+  if (this->Diffuse.Exitance[front ? 0 : 1].empty())
+  {
+    return false;
+  }
+  if (front)
+  {
+    return true;
+  }
+  const auto c = static_cast<std::size_t>(cell);
+  const Materials& optics = this->Geometry.Optics;
+  if (this->Effects.BackFaces && !optics.TwoSided.empty() && optics.TwoSided[c] != 0)
+  {
+    return true;
+  }
+  bool through = false;
+  for (std::size_t b = 0; b < this->Bands && !optics.DiffuseTransmittance.empty(); ++b)
+  {
+    through = through || optics.DiffuseTransmittance[c * this->Bands + b] > 0.0;
+  }
+  return through;
+}
+
+double RadianceTracer::Reflectance(std::int32_t cell, bool front, std::size_t band) const
+{
+  const Materials& optics = this->Geometry.Optics;
+  const std::vector<double>& values = Of(optics.SpecularReflectance, front);
+  const auto c = static_cast<std::size_t>(cell);
+  const bool there = this->Effects.Specular && !values.empty() &&
+    (front || (this->Effects.BackFaces && !optics.TwoSided.empty() && optics.TwoSided[c] != 0));
+  return there ? values[c * this->Bands + band] : 0.0;
+}
+
+double RadianceTracer::Transmittance(std::int32_t cell, std::size_t band) const
+{
+  const std::vector<double>& values = this->Geometry.Optics.Transmittance;
+  return this->Effects.Transmission && !values.empty()
+    ? values[static_cast<std::size_t>(cell) * this->Bands + band]
+    : 0.0;
+}
+
+double RadianceTracer::Exponent(std::int32_t cell, bool front) const
+{
+  const std::vector<double>& values = Of(this->Geometry.Optics.Shininess, front);
+  return values.empty() ? DefaultShininess : values[static_cast<std::size_t>(cell)];
+}
+
+bool RadianceTracer::Calls(std::int32_t cell, bool front) const
+{
+  for (std::size_t b = 0; b < this->Bands; ++b)
+  {
+    if (this->Reflectance(cell, front, b) > 0.0 || this->Transmittance(cell, b) > 0.0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+double RadianceTracer::GreatestBeams(const Vec3& center, double radius) const
+{
+  double sum = 0.0;
+  for (const Beam& beam : this->Beams)
+  {
+    const Light& light = beam.Flux->GetLight();
+    const double most = Magnitude(light);
+    if (beam.Flux->Directional())
+    {
+      sum += most;
+      continue;
+    }
+    const double r = Length(light.Position - center) - radius;
+    const double* a = light.Attenuation;
+    const double divisor = a[0] + a[1] * r + a[2] * r * r;
+    const double least =
+      this->Effects.Attenuation ? divisor : std::min(r * r, divisor > 0.0 ? divisor : r * r);
+    sum += r > 0.0 && least > 0.0 ? most / least : std::numeric_limits<double>::infinity();
+  }
+  return sum;
+}
+
+/// f/rho_s, 1/sr.
+double RadianceTracer::Lobe(const Place& place, double exponent, const Vec3& in) const
+{
+  return PhongLobeBrdf(1.0, exponent, place.Normal, in, place.Toward);
+}
+
+/// Density, per sr, with which Bounce chooses a direction: (n + 1)/(2 pi) cos^n(alpha).
+double RadianceTracer::LobeDensity(const Place& place, const Vec3& in) const
+{
+  const double n = this->Exponent(place.Cell, place.Front);
+  const double f = this->Lobe(place, n, in);
+  return n == 0.0 ? f * std::max(0.0, Dot(place.Normal, in)) : f * (n + 1.0) / (n + 2.0);
+}
+
+/// Chooses a direction by the lobe; the factor of the weight is f cos/(rho_s density). 0: below the
+/// surface.
+double RadianceTracer::Bounce(
+  const Place& at, const std::array<double, 4>& u, Vec3& direction, double& density) const
+{
+  const double n = this->Exponent(at.Cell, at.Front);
+  const double cosine = Dot(at.Normal, at.Toward);
+  const Vec3 image = Normalized(2.0 * cosine * at.Normal - at.Toward);
+  density = std::numeric_limits<double>::infinity();
+  if (!(cosine > 0.0))
+  {
+    return 0.0;
+  }
+  if (n >= MirrorShininess)
+  {
+    direction = image;
+    return 1.0;
+  }
+  if (n == 0.0)
+  {
+    direction = CosineDirection(at.Normal, u[2], u[3]);
+    density = std::max(0.0, Dot(at.Normal, direction)) / Pi;
+    return density > 0.0 ? 1.0 : 0.0;
+  }
+  // 1 - cos without cancellation: sharp lobes keep their digits.
+  const double versine = -std::expm1(std::log(u[2]) / (n + 1.0));
+  const double sine = std::sqrt(versine * (2.0 - versine));
+  Vec3 s, t;
+  Frame(image, s, t);
+  const double psi = 2.0 * Pi * u[3];
+  direction = Normalized(
+    (1.0 - versine) * image + (sine * std::cos(psi)) * s + (sine * std::sin(psi)) * t);
+  density = this->LobeDensity(at, direction);
+  const double height = Dot(at.Normal, direction);
+  return height > 0.0 && density > 0.0 ? (n + 2.0) / (n + 1.0) * height : 0.0;
+}
+
+/// Density, per sr, with which points of a panel are chosen that lie along `way` (not unit) from a
+/// place.
+double RadianceTracer::PanelDensity(const Panel& panel, const Vec3& way) const
+{
+  const double r2 = LengthSquared(way);
+  const double leaves = -Dot(panel.Normal, way) / std::sqrt(r2);
+  return leaves > 0.0 ? panel.Chance / panel.Area * r2 / leaves
+                      : std::numeric_limits<double>::infinity();
+}
+
+void RadianceTracer::AddBeams(Walk& walk, bool first) const
+{
+  const Place& at = walk.At;
+  const double exponent = this->Exponent(at.Cell, at.Front);
+  const auto add = [&](const Beam& beam, double weight) {
+    const Light& light = beam.Flux->GetLight();
+    const Vec3 in = beam.Flux->Directional() ? -light.Direction
+                                             : Normalized(light.Position - at.End.Point);
+    const double f = this->Lobe(at, exponent, in);
+    const double e = f > 0.0 ? beam.Flux->AtPoint(at.End.Point, at.Normal) : 0.0;
+    if (!(e * f > 0.0))
+    {
+      return;
+    }
+    const double known = first && at.Known ? at.Known[beam.Index] : 0.5;
+    const bool ask = this->Effects.Occlusion && known > 0.0 && known < 1.0;
+    if (known <= 0.0 && this->Effects.Occlusion)
+    {
+      return;
+    }
+    walk.Passed.assign(this->Bands, 1.0);
+    if (ask && beam.Shadow->Transmits())
+    {
+      beam.Shadow->Passing(at.End, walk.Passed.data());
+    }
+    else if (ask && beam.Shadow->Hidden(at.End))
+    {
+      ++walk.Rays;
+      return;
+    }
+    walk.Rays += ask ? 1 : 0;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      walk.Add(b,
+        weight * this->Reflectance(at.Cell, at.Front, b) * f * e * light.Intensity[b] *
+          walk.Passed[b]);
+    }
+  };
+  if (first || this->Beams.size() <= 4)
+  {
+    for (const Beam& beam : this->Beams)
+    {
+      add(beam, 1.0);
+    }
+    return;
+  }
+  const auto count = static_cast<double>(this->Beams.size());
+  const double u = Uniform(walk.State);
+  add(this->Beams[std::min(this->Beams.size() - 1, static_cast<std::size_t>(u * count))], count);
+}
+
+void RadianceTracer::AddPanelSample(Walk& walk, const std::array<double, 4>& u) const
+{
+  if (this->Panels.empty())
+  {
+    return;
+  }
+  const Place& at = walk.At;
+  const auto found =
+    std::upper_bound(this->Cumulative.begin(), this->Cumulative.end(), u[0] * this->Cumulative.back());
+  const Panel& panel = this->Panels[std::min(this->Panels.size() - 1,
+    static_cast<std::size_t>(found - this->Cumulative.begin()))];
+  const Vec3 on = TrianglePoint(panel.Corners, u[1], u[2]);
+  const Vec3 way = on - at.End.Point;
+  const double distance = Length(way);
+  const double arrives = distance > 0.0 ? Dot(at.Normal, way) / distance : 0.0;
+  if (!(arrives > 0.0) || !(Dot(panel.Normal, way) < 0.0) || panel.Triangle == at.End.Triangle)
+  {
+    return;
+  }
+  const double f = this->Lobe(at, this->Exponent(at.Cell, at.Front), way / distance);
+  const double density = this->PanelDensity(panel, way);
+  if (!(f > 0.0) || !std::isfinite(density))
+  {
+    return;
+  }
+  walk.Passed.assign(this->Bands, 1.0);
+  if (this->Effects.Occlusion)
+  {
+    RayEnd to{ on, panel.Triangle, false };
+    to.Close = panel.Triangle < 0 && this->Occluders.TooClose(on);
+    ++walk.Rays;
+    if (this->Effects.Transmission && this->Occluders.HasPanes()
+        ? !this->Occluders.Visible(at.End, to, walk.Passed.data())
+        : this->Occluders.Occluded(at.End, to))
+    {
+      return;
+    }
+  }
+  // The balance heuristic: f cos L/density times density/(density + that of the lobe).
+  const double share = f * arrives / (density + this->LobeDensity(at, way / distance));
+  for (std::size_t b = 0; b < this->Bands; ++b)
+  {
+    walk.Add(b,
+      this->Reflectance(at.Cell, at.Front, b) * share * panel.Radiance[b] * walk.Passed[b]);
+  }
+}
+
+void RadianceTracer::AddSky(Walk& walk) const
+{
+  const Vec3 way = Normalized(walk.Way);
+  for (const SkyLight& sky : this->Skies)
+  {
+    const auto& radiance = sky.Source->Environment;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      const int band = radiance && radiance->Bands() > 1 ? static_cast<int>(b) : 0;
+      walk.Add(b,
+        sky.Source->Intensity[b] * (radiance ? radiance->At(sky.Axes.ToSky(way), band) : 1.0));
+    }
+  }
+}
+
+/// Goes along the walk's way to the next surface and counts what it sends; false: the path ends.
+bool RadianceTracer::Follow(Walk& walk) const
+{
+  ++walk.Rays;
+  const Vec3 from = walk.At.End.Point;
+  const SurfaceHit hit = this->Occluders.Closest(walk.At.End, walk.Way);
+  const auto balance = [&](const Panel& panel, const Vec3& way) {
+    if (std::isinf(walk.Density))
+    {
+      return 1.0;
+    }
+    const double density = this->PanelDensity(panel, from + way - walk.Source);
+    return std::isfinite(density) ? walk.Density / (walk.Density + density) : 0.0;
+  };
+  const double reach = hit.Triangle < 0
+    ? std::numeric_limits<double>::infinity()
+    : hit.Distance + 1e-9 * (this->Extent + hit.Distance);
+  for (const std::size_t k : this->Lights)
+  {
+    const Panel& panel = this->Panels[k];
+    const double t = Crossing(panel.Corners, from, walk.Way);
+    if (t > 0.0 && t <= reach)
+    {
+      const double share = balance(panel, t * walk.Way);
+      for (std::size_t b = 0; b < this->Bands; ++b)
+      {
+        walk.Add(b, share * panel.Radiance[b]);
+      }
+    }
+  }
+  if (hit.Triangle < 0)
+  {
+    this->AddSky(walk);
+    return false;
+  }
+  const auto t = static_cast<std::size_t>(hit.Triangle);
+  const bool receives = t < this->Geometry.ReceiverTriangles;
+  const std::int32_t cell = receives ? this->Geometry.TriangleCell[t] : -1;
+  if (receives && this->Sends(cell, hit.Front))
+  {
+    const std::size_t side = hit.Front ? 0 : 1;
+    const std::size_t row = static_cast<std::size_t>(cell) * this->Bands;
+    const std::int32_t emitter = this->PanelOf.empty() ? -1 : this->PanelOf[t][side];
+    const double share = emitter < 0
+      ? 1.0
+      : balance(this->Panels[static_cast<std::size_t>(emitter)], hit.Distance * walk.Way);
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      const double all = this->Diffuse.Exitance[side][row + b] / Pi;
+      const double own =
+        emitter < 0 ? 0.0 : this->Panels[static_cast<std::size_t>(emitter)].Radiance[b];
+      walk.Add(b, std::max(0.0, all - own) + share * own);
+      if (!this->Diffuse.Error[side].empty())
+      {
+        walk.Doubt[b] += walk.Weight[b] * this->Diffuse.Error[side][row + b] / Pi;
+      }
+    }
+  }
+  if (!this->Surfaces.GoesOn(hit))
+  {
+    return false;
+  }
+  walk.At.End = this->Surfaces.Place(hit);
+  walk.At.Normal = this->Surfaces.Normal(hit.Triangle, hit.Front);
+  walk.At.Cell = cell;
+  walk.At.Front = hit.Front;
+  walk.At.Toward = -Normalized(walk.Way);
+  walk.At.Known = nullptr;
+  return true;
+}
+
+std::int64_t RadianceTracer::AddSample(
+  const Place& place, const RadianceNumbers& numbers, double* radiance, double* doubt) const
+{
+  Walk walk;
+  walk.Radiance = radiance;
+  walk.Doubt = doubt;
+  walk.State = numbers.State;
+  // What comes through: straight on from the eye.
+  std::vector<double> through(this->Bands, 0.0);
+  bool reflects = false, transmits = false;
+  for (std::size_t b = 0; b < this->Bands; ++b)
+  {
+    through[b] = this->Transmittance(place.Cell, b);
+    transmits = transmits || through[b] > 0.0;
+    reflects = reflects || this->Reflectance(place.Cell, place.Front, b) > 0.0;
+  }
+  // Each of the two ways of the first place is followed; later ones by chance.
+  for (int way = 0; way < 2; ++way)
+  {
+    if (!(way == 0 ? reflects : transmits))
+    {
+      continue;
+    }
+    walk.At = place;
+    walk.Density = std::numeric_limits<double>::infinity();
+    walk.Weight.assign(this->Bands, 1.0);
+    bool reflect = way == 0;
+    for (int bounce = 0; bounce < MostReflections; ++bounce)
+    {
+      const bool first = bounce == 0;
+      const Place at = walk.At;
+      if (reflect)
+      {
+        const double exponent = this->Exponent(at.Cell, at.Front);
+        const bool lobe = exponent < MirrorShininess;
+        std::array<double, 4> u = numbers.Lobe;
+        if (!first)
+        {
+          u = { Uniform(walk.State), Uniform(walk.State), Uniform(walk.State),
+            Uniform(walk.State) };
+        }
+        if (lobe && first)
+        {
+          this->AddBeams(walk, true);
+          this->AddPanelSample(walk, numbers.Panel);
+        }
+        const double factor = this->Bounce(at, u, walk.Way, walk.Density);
+        walk.Source = at.End.Point;
+        for (std::size_t b = 0; b < this->Bands; ++b)
+        {
+          walk.Weight[b] *=
+            factor * (first ? this->Reflectance(place.Cell, place.Front, b) : 1.0);
+        }
+        if (!(factor > 0.0))
+        {
+          break;
+        }
+      }
+      else
+      {
+        walk.Way = -at.Toward;
+        for (std::size_t b = 0; b < this->Bands && first; ++b)
+        {
+          walk.Weight[b] = through[b];
+        }
+      }
+      if (!this->Follow(walk))
+      {
+        break;
+      }
+      // Highlights of lights on what is seen there, then one way on.
+      double reflected = 0.0, transmitted = 0.0;
+      const std::int32_t t = walk.At.End.Triangle;
+      for (std::size_t b = 0; b < this->Bands; ++b)
+      {
+        const std::size_t band = this->Surfaces.Width() > 1 ? b : 0;
+        if (walk.Weight[b] > 0.0)
+        {
+          reflected =
+            std::max(reflected, this->Surfaces.Reflectance(t, walk.At.Front, band));
+          transmitted = std::max(transmitted, this->Surfaces.Transmittance(t, band));
+        }
+      }
+      if (reflected > 0.0 && this->Exponent(walk.At.Cell, walk.At.Front) < MirrorShininess)
+      {
+        this->AddBeams(walk, false);
+        this->AddPanelSample(walk,
+          { Uniform(walk.State), Uniform(walk.State), Uniform(walk.State), Uniform(walk.State) });
+      }
+      const double sum = reflected + transmitted;
+      const double scale = sum > 1.0 ? 1.0 / sum : 1.0;
+      const double u = Uniform(walk.State);
+      if (u >= sum * scale)
+      {
+        break;
+      }
+      reflect = u < reflected * scale;
+      const double chance = (reflect ? reflected : transmitted) * scale;
+      for (std::size_t b = 0; b < this->Bands; ++b)
+      {
+        const std::size_t band = this->Surfaces.Width() > 1 ? b : 0;
+        walk.Weight[b] *= (reflect ? this->Surfaces.Reflectance(t, walk.At.Front, band)
+                                   : this->Surfaces.Transmittance(t, band)) /
+          chance;
+      }
+    }
+  }
+  return walk.Rays;
+}
+
+} // namespace radiometry
