@@ -5,6 +5,7 @@
 #include "radiometry/scene/Units.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace radiometry
@@ -70,6 +71,22 @@ std::vector<double> ImageIrradiance(const std::vector<double>& radiance, int ban
     image[k] = radiance[k] * CosFourth(fNumber, cosAlpha[k / static_cast<std::size_t>(bands)]);
   }
   return image;
+}
+
+void AddCosFourthSpread(const std::vector<double>& radiance, int bands, double fNumber,
+  const std::vector<double>& cosAlpha, const std::vector<double>& meanCosFourth,
+  std::vector<double>& errors)
+{
+  CheckFNumber(fNumber);
+  for (std::size_t k = 0; k < radiance.size(); ++k)
+  {
+    const std::size_t tuple = k / static_cast<std::size_t>(bands);
+    if (!std::isnan(meanCosFourth[tuple]))
+    {
+      const double mean = 0.25 * units::Pi * meanCosFourth[tuple] / (fNumber * fNumber);
+      errors[k] += radiance[k] * std::fabs(CosFourth(fNumber, cosAlpha[tuple]) - mean);
+    }
+  }
 }
 
 double ThinLensImageIrradiance(

@@ -21,6 +21,12 @@ double ImageIrradiance(double radiance, double fNumber, double cosAlpha);
 std::vector<double> ImageIrradiance(const std::vector<double>& radiance, int bands, double fNumber,
   const std::vector<double>& cosAlpha);
 
+/// Adds to errors of the above what cos^4 varies over each tuple's picture: L times the difference
+/// between the law at the middle and at its mean (NaN: no picture, nothing is added).
+void AddCosFourthSpread(const std::vector<double>& radiance, int bands, double fNumber,
+  const std::vector<double>& cosAlpha, const std::vector<double>& meanCosFourth,
+  std::vector<double>& errors);
+
 /// The same without the approximation, for a thin lens whose pupil is a disc in its plane, seen whole
 /// from every point of the image (no vignetting).
 ///   Model   E = pi L F, F the configuration factor from an element of the image plane to a

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/OutgoingRadiance.h"
 
-#include "radiometry/geometry/BoxTree.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/visibility/PointStarts.h"
 
@@ -320,77 +319,6 @@ RadianceResult Compute(const std::vector<Receiver>& receivers, const Scene& scen
 
 } // namespace
 
-DiffuseLight ReflectDiffusely(
-  const Scene& scene, const std::array<FieldValues, 2>& irradiance, bool emission)
-{
-  const Materials& optics = scene.Optics;
-  const auto bands = static_cast<std::size_t>(optics.Bands);
-  const auto own = [](const std::array<std::vector<double>, 2>& sides, std::size_t side,
-                     std::size_t at) {
-    const std::vector<double>& values = sides[side].empty() ? sides[0] : sides[side];
-    return values.empty() ? 0.0 : values[at];
-  };
-  DiffuseLight light;
-  for (std::size_t side = 0; side < 2; ++side)
-  {
-    const bool any = side == 0 || !irradiance[1].Values.empty() ||
-      std::any_of(optics.TwoSided.begin(), optics.TwoSided.end(), [](auto t) { return t != 0; }) ||
-      !optics.DiffuseTransmittance.empty();
-    if (!any)
-    {
-      continue;
-    }
-    light.Exitance[side].assign(scene.Cells * bands, 0.0);
-    light.Error[side].assign(scene.Cells * bands, 0.0);
-    for (std::size_t at = 0; at < scene.Cells * bands; ++at)
-    {
-      const std::size_t cell = at / bands;
-      const double through =
-        optics.DiffuseTransmittance.empty() ? 0.0 : optics.DiffuseTransmittance[at];
-      const bool reflects = side == 0 || (!optics.TwoSided.empty() && optics.TwoSided[cell] != 0);
-      double value = reflects && emission ? own(optics.EmittedExitance, side, at) : 0.0;
-      double error = 0.0;
-      const auto add = [&](double share, const FieldValues& e) {
-        value += share > 0.0 && !e.Values.empty() ? share * e.Values[at] : 0.0;
-        error += share > 0.0 && !e.Errors.empty() ? share * e.Errors[at] : 0.0;
-      };
-      add(reflects ? own(optics.DiffuseReflectance, side, at) : 0.0, irradiance[side]);
-      add(through, irradiance[1 - side]);
-      light.Exitance[side][at] = value;
-      light.Error[side][at] = error;
-    }
-  }
-  return light;
-}
-
-Vec3 MiddleOf(const Scene& scene, double* radius)
-{
-  Box3 box;
-  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
-  {
-    for (const Vec3& corner : scene.TriangleAt(t))
-    {
-      box.Add(corner);
-    }
-  }
-  const bool any = scene.ReceiverTriangles > 0;
-  if (radius)
-  {
-    *radius = any ? 0.5 * Length(box.Size()) : 0.0;
-  }
-  return any ? 0.5 * (box.Min + box.Max) : Vec3{};
-}
-
-Viewer HomeViewer(const Scene& scene)
-{
-  double radius = 0.0;
-  Viewer viewer;
-  const Vec3 middle = MiddleOf(scene, &radius);
-  constexpr double HalfAngle = 15.0 * Pi / 180.0;
-  viewer.Eye = middle + Vec3{ 0.0, 0.0, (radius > 0.0 ? radius : 1.0) / std::sin(HalfAngle) };
-  return viewer;
-}
-
 RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene& occluders,
   const DiffuseLight& diffuse, const Viewer& viewer, const std::vector<std::int32_t>& cells,
   const RadianceOptions& options, const StageProgress& stage, ConvergenceRecord* record)
@@ -431,7 +359,7 @@ RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene&
   {
     Receiver& receiver = receivers[i];
     receiver.Key = static_cast<std::uint64_t>(cells[i]);
-    receiver.Known = options.Known.empty() ? nullptr : &options.Known[i * scene.Lights.size()];
+    receiver.Known = options.Known.empty() ? nullptr : &options.Known[receiver.Key * scene.Lights.size()];
     for (Piece& piece : receiver.Pieces)
     {
       piece.Share = areas[i] > 0.0 ? piece.Share / areas[i] : 0.0;
@@ -501,6 +429,22 @@ RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene&
   }
   return Compute(
     receivers, scene, occluders, diffuse, viewer, options, stage, record, std::move(result));
+}
+
+void SpreadToCells(
+  const Scene& scene, const std::vector<std::int32_t>& cells, RadianceResult& result)
+{
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  for (std::vector<double>* numbers : { &result.Values, &result.Errors })
+  {
+    std::vector<double> all(scene.Cells * bands, 0.0);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      std::copy_n(numbers->begin() + static_cast<std::ptrdiff_t>(i * bands), bands,
+        all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(cells[i]) * bands));
+    }
+    *numbers = std::move(all);
+  }
 }
 
 } // namespace radiometry

@@ -3,13 +3,11 @@
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
 #include "radiometry/geometry/SeenPolygon.h"
-#include "radiometry/irradiance/IrradianceSimulation.h"
 #include "radiometry/irradiance/RadianceTracer.h"
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,7 +21,7 @@ struct RadianceOptions
   double SecondsLeft = 0.0;        // after that no value is made better; 0: no limit
   int Threads = 0;                 // 0: all
   RadianceEffects Effects;
-  /// Share of each light that arrives at each cell or point, receivers x lights; empty: not known.
+  /// Share of each light that arrives at each cell of the scene or point, x lights; empty: not known.
   std::vector<float> Known;
 };
 
@@ -37,17 +35,6 @@ struct RadianceResult
   bool TimedOut = false;
   double LeftOut = 0.0; // bound of what the effects that are off may change
 };
-
-/// What surfaces send diffusely when this falls on them (front and back; empty: nothing does):
-/// B = M + rho E + tau E_other of each side that receives, with their errors. `emission` false: without M.
-DiffuseLight ReflectDiffusely(
-  const Scene& scene, const std::array<FieldValues, 2>& irradiance, bool emission);
-
-/// A viewer who sees the whole scene: at the distance where a cone of 30 degrees holds the sphere
-/// about its box, looking along -z, as a view's Reset Camera sets it.
-Viewer HomeViewer(const Scene& scene);
-/// The middle of the box of the receiving triangles.
-Vec3 MiddleOf(const Scene& scene, double* radius = nullptr);
 
 /// Radiance that cells send toward a viewer, averaged over each cell's area.
 ///   Model    L = B/pi of the side that is seen + (1/A) int_A [int f(w, out) L(w) cos dw + tau L(-out)]
@@ -70,5 +57,9 @@ RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene&
   const DiffuseLight& diffuse, const Viewer& viewer, const std::vector<SurfacePoint>& points,
   const DiffuseLight& here, const RadianceOptions& options, const StageProgress& stage = {},
   ConvergenceRecord* record = nullptr);
+
+/// Brings results of some cells to the places of all cells of the scene; the others get 0.
+void SpreadToCells(
+  const Scene& scene, const std::vector<std::int32_t>& cells, RadianceResult& result);
 
 } // namespace radiometry

@@ -4,6 +4,7 @@
 #include "radiometry/irradiance/ShadowCutter.h"
 #include "radiometry/irradiance/SourceFlux.h"
 #include "radiometry/irradiance/SpecularSurfaces.h"
+#include "radiometry/irradiance/SurfaceExitance.h"
 #include "radiometry/scene/Scene.h"
 #include "radiometry/scene/SkyRadiance.h"
 #include "radiometry/visibility/OcclusionScene.h"
@@ -15,14 +16,6 @@
 
 namespace radiometry
 {
-
-/// What surfaces send diffusely, all bounces that are known in it: front and back, cells x bands,
-/// W/m^2. Empty: that side sends nothing.
-struct DiffuseLight
-{
-  std::array<std::vector<double>, 2> Exitance;
-  std::array<std::vector<double>, 2> Error;
-};
 
 /// What RadianceTracer follows.
 struct RadianceEffects
