@@ -22,7 +22,7 @@
 ///           of SpecularReflectance and Shininess. E_image = L pi/4 cos^4(alpha)/FNumber^2
 ///   Limits  nothing is asked about what stands between a cell and the eye, nor about fog. A perfect
 ///           mirror shows surfaces, area lights and skies, and no light without an area
-///   Cost    O(cells); cells that reflect specularly or transmit: 64 to 4096 samples of some rays each
+///   Cost    O(cells); cells that reflect specularly or transmit: 64 to 16384 samples of some rays each
 ///   Source  Nicodemus 1965 (radiance); Lafortune and Willems 1994 (lobe); Reiss 1945 (cos^4 law)
 ///   Fails   as the simulating filters; values of Irradiance or Radiosity that are negative or not
 ///           finite, present in some blocks only, or without their error's shape

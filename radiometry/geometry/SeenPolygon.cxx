@@ -24,19 +24,21 @@ double Largest(const Vec3& v)
 /// corner's angle there, 0 outside.
 double AngleAbout(const Triangle3& triangle, const Vec3& normal, const Vec3& point)
 {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k)
   {
-    const Vec3& p = triangle[static_cast<std::size_t>(k)];
-    const Vec3& q = triangle[static_cast<std::size_t>((k + 1) % 3)];
-    const Vec3& r = triangle[static_cast<std::size_t>((k + 2) % 3)];
-    const Vec3 a = p - point;
-    const Vec3 b = q - point;
-    if (a == Vec3{})
+    if (triangle[k] == point)
     {
-      const Vec3 u = q - p, v = r - p;
+      const Vec3 u = triangle[(k + 1) % 3] - point, v = triangle[(k + 2) % 3] - point;
       return std::atan2(Length(Cross(u, v)), Dot(u, v));
     }
+  }
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const Vec3& p = triangle[k];
+    const Vec3& q = triangle[(k + 1) % 3];
+    const Vec3 a = p - point;
+    const Vec3 b = q - point;
     const double side = Dot(normal, Cross(a, q - p));
     const double rounding = 4.0 * Epsilon * (Largest(point) + Largest(p) + Largest(q)) *
       (Largest(q - p) + Largest(a));

@@ -41,9 +41,9 @@ struct RadianceResult
 ///            (RadianceTracer.h). Nothing is asked about what stands between the cell and the viewer.
 ///            A side that sends nothing, and a cell whose plane holds the eye, gives 0
 ///   Error    of B as given (over pi); of the rest 2.4 standard deviations of eight independent sets
-///            of samples, which are doubled until the tolerance is met or 512 a set, and what errors
+///            of samples, which are doubled until the tolerance is met or 2048 a set, and what errors
 ///            of the surroundings' B make
-///   Cost     O(cells); a cell that reflects specularly or transmits: 64 to 4096 samples of about one
+///   Cost     O(cells); a cell that reflects specularly or transmits: 64 to 16384 samples of about one
 ///            ray a light and two more
 ///   Bytes    the same for any number of threads
 RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene& occluders,

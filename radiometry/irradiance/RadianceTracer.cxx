@@ -43,8 +43,8 @@ double Crossing(const Triangle3& t, const Vec3& from, const Vec3& way)
   }
   const Vec3 r = from - t[0];
   const Vec3 c = Cross(r, way);
-  const double u = -Dot(e2, c) / fall;
-  const double v = Dot(e1, c) / fall;
+  const double u = Dot(e2, c) / fall;
+  const double v = -Dot(e1, c) / fall;
   return u >= 0.0 && v >= 0.0 && u + v <= 1.0 ? Dot(n, r) / fall : -1.0;
 }
 

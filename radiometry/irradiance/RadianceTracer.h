@@ -70,6 +70,10 @@ public:
   std::int64_t AddSample(
     const Place& place, const RadianceNumbers& numbers, double* radiance, double* doubt) const;
 
+  /// rho_s of a side of a cell, and tau; 0 where the effect is left out.
+  double Reflectance(std::int32_t cell, bool front, std::size_t band) const;
+  double Transmittance(std::int32_t cell, std::size_t band) const;
+
   /// Whether a side of a cell sends diffuse light.
   bool Sends(std::int32_t cell, bool front) const;
   /// The greatest radiance of surfaces, area lights and skies, any band.
@@ -109,8 +113,6 @@ private:
   void AddPanelSample(Walk& walk, const std::array<double, 4>& u) const;
   bool Follow(Walk& walk) const;
   void AddSky(Walk& walk) const;
-  double Reflectance(std::int32_t cell, bool front, std::size_t band) const;
-  double Transmittance(std::int32_t cell, std::size_t band) const;
   double Exponent(std::int32_t cell, bool front) const;
 
   const Scene& Geometry;
