@@ -7,6 +7,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -21,8 +22,6 @@ using Blocks = std::vector<SceneAdapter::Block>;
 
 namespace
 {
-
-constexpr char LightVisibility[] = "LightVisibility";
 
 vtkDataSetAttributes* Attributes(vtkPolyData* data, bool points)
 {
@@ -226,9 +225,24 @@ std::vector<float> ReadLightVisibility(const vtkRadiometricFilter::Job& job)
         array ? static_cast<float>(array->GetComponent(tuple, static_cast<int>(k))) : 0.5f;
     }
   };
+  // Only of the very lights that are here.
+  const auto& keys = job.Adapter->LightKeys();
   const auto find = [&](vtkPolyData* data, bool points) -> vtkDataArray* {
-    vtkDataArray* array = Attributes(data, points)->GetArray(LightVisibility);
-    return array && array->GetNumberOfComponents() == static_cast<int>(lights) ? array : nullptr;
+    vtkDataArray* array = Attributes(data, points)->GetArray(names::LightVisibility);
+    auto* of = vtkDataArray::SafeDownCast(
+      data->GetFieldData()->GetAbstractArray(names::LightVisibilityLights));
+    bool same = array && array->GetNumberOfComponents() == static_cast<int>(lights) && of &&
+      of->GetNumberOfComponents() == 7 && of->GetNumberOfTuples() == static_cast<vtkIdType>(lights) &&
+      keys.size() == lights;
+    for (std::size_t k = 0; k < lights && same; ++k)
+    {
+      for (int c = 0; c < 7; ++c)
+      {
+        same = same &&
+          of->GetComponent(static_cast<vtkIdType>(k), c) == keys[k][static_cast<std::size_t>(c)];
+      }
+    }
+    return same ? array : nullptr;
   };
   if (!job.WantCells)
   {

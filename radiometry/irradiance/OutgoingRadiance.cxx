@@ -171,7 +171,7 @@ private:
       place.Cell = piece.Cell;
       place.Front = piece.Front;
       place.Toward = this->Eye.Toward(place.End.Point);
-      place.Known = known;
+      place.Known = piece.Front ? known : nullptr; // known of fronts
       return Dot(place.Toward, place.Normal) > 0.0
         ? this->Tracer.AddSample(place, numbers, sum, doubt)
         : 0;
