@@ -12,6 +12,7 @@
 #include "radiometry/scene/Scene.h"
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,7 +31,7 @@ struct vtkRadiometricFilter::Job
   radiometry::Monitor* Progress = nullptr;
   /// The processes that compute this together; null: this one alone. Each has the whole scene.
   const radiometry::Communicator* Ranks = nullptr;
-  int RanksHere = 1; // of them on this machine, which share its memory
+  std::size_t Memory = 0; // bytes that the run may take
   int Threads = 0;   // NumberOfThreads, or this process's share of the machine's; 0: all
   bool WantVisibility = false; // how much of each light arrives
   /// Where the input's own arrays are found.

@@ -2,11 +2,8 @@
 #ifndef vtkRadiometricFilter_h
 #define vtkRadiometricFilter_h
 
-#include "vtkDataObjectAlgorithm.h"
-#include "vtkRadiometryFiltersModule.h"
-#include "vtkSmartPointer.h"
+#include "vtkRadiometricAlgorithm.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,7 +12,7 @@ class SceneAdapter;
 class vtkMatrix4x4;
 class vtkMultiProcessController;
 
-/// What the simulating filters share: ports, switches, checks and the writing of results.
+/// What the filters of lights share: lights, switches, checks and the writing of results.
 ///   Ports   0 surface; 1 lights (repeatable, optional); 2 occluders (repeatable, optional).
 ///           Surface and occluders: polydata, composite data, or any dataset, whose outer surface
 ///           is then taken.
@@ -25,10 +22,10 @@ class vtkMultiProcessController;
 ///           RadiometryOutcome (what ended the run)
 ///   Fails   input that cannot be computed with: an error that names array, index and value, empty
 ///           outputs
-class VTKRADIOMETRYFILTERS_EXPORT vtkRadiometricFilter : public vtkDataObjectAlgorithm
+class VTKRADIOMETRYFILTERS_EXPORT vtkRadiometricFilter : public vtkRadiometricAlgorithm
 {
 public:
-  vtkTypeMacro(vtkRadiometricFilter, vtkDataObjectAlgorithm);
+  vtkTypeMacro(vtkRadiometricFilter, vtkRadiometricAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /// The values of SampleLocation.
@@ -37,14 +34,6 @@ public:
     CELLS = 0,
     POINTS = 1
   };
-  /// The values of the effect switches and of Refinement.
-  enum Switches
-  {
-    AUTO = 0,
-    ON = 1,
-    OFF = 2
-  };
-
   struct Job;    // RadiometricJob.h; not part of the public interface
   struct Result;
 
@@ -52,32 +41,6 @@ public:
   void AddLightsConnection(vtkAlgorithmOutput* lights);
   void AddLightsData(vtkDataObject* lights);
   void RemoveLightsConnections();
-  /// Further surfaces that only block light (input port 2, repeatable).
-  void AddOccludersConnection(vtkAlgorithmOutput* occluders);
-  void AddOccludersData(vtkDataObject* occluders);
-  void RemoveOccludersConnections();
-
-  ///@{
-  /// Error that each value is computed to, relative to the value. Default 0.01. Range [0, 1].
-  vtkSetMacro(RelativeTolerance, double);
-  vtkGetMacro(RelativeTolerance, double);
-  ///@}
-  ///@{
-  /// Error that is good enough whatever the value [W/m^2]. Default 0. At least 0.
-  vtkSetMacro(AbsoluteTolerance, double);
-  vtkGetMacro(AbsoluteTolerance, double);
-  ///@}
-  ///@{
-  /// Seconds after which refinement stops, tolerance met or not; the result says which. Default 0,
-  /// no limit. The first estimate of every value is always finished.
-  vtkSetMacro(TimeBudget, double);
-  vtkGetMacro(TimeBudget, double);
-  ///@}
-  ///@{
-  /// Memory that the run may take [MiB]. Default 0: half of the machine's.
-  vtkSetMacro(MemoryLimit, double);
-  vtkGetMacro(MemoryLimit, double);
-  ///@}
   ///@{
   /// Where results are wanted: averages over cells (0, default) or values at points (1), about
   /// point normals, points split where faces meet at more than FeatureAngle.
@@ -90,27 +53,10 @@ public:
   vtkGetMacro(FeatureAngle, double);
   ///@}
   ///@{
-  /// Whether surfaces receive, emit and reflect on both sides. Default off: the front only (where
-  /// points turn counter-clockwise). A cell array TwoSided overrides it cell by cell.
-  vtkSetMacro(TwoSided, bool);
-  vtkGetMacro(TwoSided, bool);
-  vtkBooleanMacro(TwoSided, bool);
-  ///@}
-  ///@{
   /// Whether the solution may be computed on a finer mesh inside. 0 Auto (default), 1 On, 2 Off:
   /// one constant radiosity a cell.
   vtkSetClampMacro(Refinement, int, AUTO, OFF);
   vtkGetMacro(Refinement, int);
-  ///@}
-  ///@{
-  /// Metres per unit of the coordinates, of surface, occluders and lights alike. Default 1. > 0.
-  vtkSetMacro(MetersPerUnit, double);
-  vtkGetMacro(MetersPerUnit, double);
-  ///@}
-  ///@{
-  /// Threads to use; 0 (default): all, of each of several ranks its share of the machine's. The result has the same bytes for any number.
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
-  vtkGetMacro(NumberOfThreads, int);
   ///@}
   ///@{
   /// Diffuse reflectance of surfaces without the array DiffuseReflectance. Default 0.5. [0, 1].
@@ -137,13 +83,6 @@ public:
   /// LuminousExposure [lx s]. Default 0: none. Finite, at least 0.
   vtkSetMacro(ExposureTime, double);
   vtkGetMacro(ExposureTime, double);
-  ///@}
-  ///@{
-  /// The processes that hold the pieces of the scene and compute it together (docs/scaling.md); all of
-  /// them must update the filter. Default: the global controller, so the ranks of pvbatch and
-  /// pvserver. Null: this process alone.
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
   ///@}
   ///@{
   /// Whether LightVisibility is written: cells or points x lights in the order of their inputs, at
@@ -210,12 +149,8 @@ protected:
   vtkRadiometricFilter();
   ~vtkRadiometricFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  int RequestData(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void Compute(const ControllerCommunicator* ranks, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
 
   /// The subclass's physics: reads the job, calls the core, fills the result.
   virtual void Simulate(Job& job, Result& result) = 0;
@@ -224,16 +159,9 @@ protected:
   /// Whether results are wanted at points.
   virtual bool WantsPoints(const SceneAdapter&) const { return this->SampleLocation == POINTS; }
 
-  double RelativeTolerance = 0.01;
-  double AbsoluteTolerance = 0.0;
-  double TimeBudget = 0.0;
-  double MemoryLimit = 0.0;
   int SampleLocation = CELLS;
   double FeatureAngle = 30.0;
-  bool TwoSided = false;
   int Refinement = AUTO;
-  double MetersPerUnit = 1.0;
-  int NumberOfThreads = 0;
   double DiffuseReflectance = 0.5;
   bool Photometric = false;
   double LuminousEfficacy = 683.002;
@@ -253,15 +181,8 @@ protected:
   int Environment = AUTO;
   int SpotShape = AUTO;
   int Attenuation = AUTO;
-  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
-  /// The ranks of an execution; null: this process alone. Those of earlier controllers stay: what is
-  /// kept between executions may refer to them.
-  const ControllerCommunicator* Ranks();
-  std::vector<std::unique_ptr<ControllerCommunicator>> Communicators;
-  vtkMultiProcessController* CommunicatorsLast = nullptr; // to which the last one belongs
-
   vtkRadiometricFilter(const vtkRadiometricFilter&) = delete;
   void operator=(const vtkRadiometricFilter&) = delete;
 };

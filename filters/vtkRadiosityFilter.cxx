@@ -9,7 +9,6 @@
 #include "radiometry/solver/PlannedRadiosity.h"
 
 #include "vtkObjectFactory.h"
-#include "vtksys/SystemInformation.hxx"
 
 #include <utility>
 
@@ -69,24 +68,7 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   options.RelativeTolerance = this->RelativeTolerance;
   options.AbsoluteTolerance = this->AbsoluteTolerance;
   options.TimeBudget = this->TimeBudget;
-  if (this->MemoryLimit > 0.0)
-  {
-    options.MemoryLimit = static_cast<std::size_t>(this->MemoryLimit * Mebibyte);
-  }
-  else
-  {
-    vtksys::SystemInformation machine;
-    machine.RunMemoryCheck();
-    options.MemoryLimit = static_cast<std::size_t>(0.5 * Mebibyte) *
-      machine.GetTotalPhysicalMemory() / static_cast<std::size_t>(job.RanksHere);
-  }
-  if (job.Ranks)
-  {
-    // The least of all, so that they choose alike.
-    double negative = -static_cast<double>(options.MemoryLimit);
-    job.Ranks->Largest(&negative, 1);
-    options.MemoryLimit = static_cast<std::size_t>(-negative);
-  }
+  options.MemoryLimit = job.Memory;
   options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);
   options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
   options.LightVisibility = job.WantVisibility;
