@@ -22,7 +22,7 @@ endif ()
 if (NOT VTKRADIOMETRY_HAVE_PARAVIEW)
   find_package(VTK REQUIRED COMPONENTS
     CommonCore CommonDataModel CommonExecutionModel CommonTransforms FiltersCore FiltersGeneral
-    FiltersGeometry IOGeometry IOImage IOXML RenderingCore RenderingOpenGL2 InteractionStyle glew
+    FiltersGeometry IOGeometry IOImage IOXML RenderingCore RenderingFreeType RenderingOpenGL2 InteractionStyle glew
     Python WrappingPythonCore)
 endif ()
 message(STATUS "vtkRadiometry: ParaView ${VTKRADIOMETRY_HAVE_PARAVIEW} ${ParaView_VERSION}, "

@@ -184,7 +184,16 @@ int vtkOpenColorIOImageFilter::RequestData(
     {
       result = AsBytes(converted);
     }
-    output->GetPointData()->SetScalars(result);
+    // Not SetScalars for a named one: it would drop other active scalars.
+    if (result->GetName())
+    {
+      output->GetPointData()->AddArray(result);
+      output->GetPointData()->SetActiveScalars(result->GetName());
+    }
+    else
+    {
+      output->GetPointData()->SetScalars(result);
+    }
     this->UsedConfig = config.Origin();
     this->UsedSourceColorSpace = transform.Used().SourceColorSpace;
     this->UsedDisplay = transform.Used().Display;

@@ -94,6 +94,10 @@ data.GetPointData().AddArray(extra)
 shown, errors, output = run(data)
 check((vtk_to_numpy(data.GetPointData().GetArray("RGB")) == linear).all(), "input unchanged")
 check(output.GetPointData().GetArray("Irradiance") is not None, "other arrays pass")
+data.GetPointData().SetActiveScalars("Irradiance")
+shown, errors, output = run(data)
+check(errors == 0 and output.GetPointData().GetArray("Irradiance") is not None
+      and np.abs(shown - srgb(linear)).max() < 4e-6, "other active scalars pass, too")
 
 # What is wrong is told, and the picture is the input's.
 broken = os.path.join(tempfile.mkdtemp(), "broken.ocio")

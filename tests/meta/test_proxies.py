@@ -35,6 +35,9 @@ NAMES = {
     "vtkRadiometricLightRepresentation": None,
     "vtkRadiometricView": "Radiometric View",
     "vtkSpectrumToRGBFilter": "Spectrum to RGB",
+    "vtkExposureFilter": "Exposure",
+    "vtkFalseColorImageFilter": "False Color Image",
+    "vtkImageComparisonFilter": "Image Comparison",
     "vtkOpenColorIOPass": None,  # reached through the view
     "vtkOpenColorIOImageFilter": "OpenColorIO Transform",
     "vtkOpenEXRWriter": None,  # a writer has no label of its own
