@@ -108,7 +108,7 @@ public:
       {
         const double alpha =
           image->GetScalarComponentAsDouble(extent[0] + u, extent[2] + v, 0, 3) / 255.0;
-        this->Mix(x + u, y - size[1] / 2 + v, { { Ink, Ink, Ink } }, alpha);
+        this->Mix(x + u, y - size[1] / 2 - font / 12 + v, { { Ink, Ink, Ink } }, alpha);
       }
     }
   }
@@ -127,7 +127,7 @@ int LegendStripWidth(int height) { return static_cast<int>(std::lround(8.4 * Fon
 std::string LegendNumber(double value)
 {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", value == 0.0 ? 0.0 : value);
+  std::snprintf(text, sizeof(text), "%.5g", value == 0.0 ? 0.0 : value);
   return text;
 }
 

@@ -47,6 +47,14 @@ struct vtkFalseColorImageFilter::Drawing
 namespace
 {
 
+/// Where nothing was drawn.
+constexpr imaging::ByteColor NothingThere{ { 224, 224, 224 } };
+
+bool IsNothing(const PicturePixels& pixels, std::size_t i)
+{
+  return pixels.Components == 4 && pixels.Values[4 * i + 3] == 0.0;
+}
+
 /// What a picture's values are in the legend's unit.
 struct Quantity
 {
@@ -207,11 +215,12 @@ void vtkFalseColorImageFilter::Draw(
   }
   for (std::size_t i = 0; i < pixels.Count(); ++i)
   {
-    imaging::ByteColor color = drawing.Map.Color(quantity.Values[i]);
+    const bool nothing = IsNothing(pixels, i);
+    imaging::ByteColor color = nothing ? NothingThere : drawing.Map.Color(quantity.Values[i]);
     color = lines[i] ? LineOn(color) : color;
     const std::size_t at = i / pixels.Width * columns + i % pixels.Width;
     std::copy(color.begin(), color.end(), &rgb[3 * at]);
-    drawing.NonFinite += std::isfinite(quantity.Values[i]) ? 0 : 1;
+    drawing.NonFinite += nothing || std::isfinite(quantity.Values[i]) ? 0 : 1;
   }
   if (this->Legend)
   {

@@ -13,7 +13,8 @@
  *           (unsigned char RGB); LegendTitle, LegendUnit; IsoLineLevels; NonFinitePixels;
  *           output 1: the legend as a vtkTable: Lower, Upper, Red, Green, Blue
  *   Model   radiometry/imaging/FalseColor.h. Pixels that are not finite are NonFiniteColor; values
- *           beyond the scale have the colour of its end
+ *           beyond the scale have the colour of its end; pixels of alpha 0, where nothing was drawn,
+ *           are light grey
  *   Cost    O(pixels log levels)
  *   Fails   a setting out of range, a missing array, an image that is not flat: an error event and
  *           empty outputs

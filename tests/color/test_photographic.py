@@ -214,6 +214,11 @@ def test_false_colour_marks_and_counts_what_is_not_finite():
     assert not told and field(f.GetOutput(), "NonFinitePixels") == 2
     out = pixels(f.GetOutput(), "FalseColor")
     assert (out[2, 2] == [0, 255, 0]).all() and (out[3, 3] == [0, 255, 0]).all()
+    rgba = np.ones((2, 2, 4))
+    rgba[1, 0] = 0
+    f, told = run(vtkFalseColorImageFilter, image(rgba, "RGBA"))
+    assert not told and field(f.GetOutput(), "NonFinitePixels") == 0
+    assert (pixels(f.GetOutput(), "FalseColor")[1, 0] == 224).all()
     nothing, told = run(vtkFalseColorImageFilter, image(np.full((3, 3, 3), NAN)))
     assert not told and field(nothing.GetOutput(), "NonFinitePixels") == 9
 
