@@ -207,7 +207,8 @@ vtkSurfaceMaterialFilter::Material vtkSurfaceMaterialFilter::MakeMaterial() cons
 bool vtkSurfaceMaterialFilter::Choose(vtkDataSet* surface, std::vector<bool>& chosen) const
 {
   const auto n = static_cast<std::size_t>(surface->GetNumberOfCells());
-  if (!this->SelectionArray || !*this->SelectionArray)
+  const std::string selection = this->SelectionArray ? this->SelectionArray : "";
+  if (selection.empty() || selection == "None") // what ParaView's list calls it
   {
     chosen.assign(n, true);
     return true;

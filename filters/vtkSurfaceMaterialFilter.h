@@ -114,7 +114,7 @@ public:
   ///@{
   /// Sets the material only on cells where this integer cell array (such as ObjectIndex or
   /// MaterialIndex) is SelectionValue, or where the value's name is SelectionName (looked up in the
-  /// field array ObjectNames, MaterialNames). Default none: all cells.
+  /// field array ObjectNames, MaterialNames). Default none ("" or "None"): all cells.
   vtkSetStringMacro(SelectionArray);
   vtkGetStringMacro(SelectionArray);
   vtkSetMacro(SelectionValue, int);

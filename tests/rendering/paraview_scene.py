@@ -43,6 +43,7 @@ def picture(view, name="picture"):
 
 
 def new_view():
+    pv._DisableFirstRenderCameraReset()
     view = pv.CreateView("RenderView")
     view.ViewSize = [SIZE, SIZE]
     view.OrientationAxesVisibility = 0
