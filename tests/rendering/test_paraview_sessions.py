@@ -23,9 +23,10 @@ from paraview_scene import (
 )
 from paraview import smstate
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkRectilinearGrid
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLRectilinearGridWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 WHITE = math.pi  # of a sun that makes a white matte surface show 1
@@ -36,14 +37,29 @@ def sun(power, view):
     return source, show_lights(source, view)
 
 
-def cells_with(name, values, columns=2):
-    """The plane with `values` on its cells, row by row from the lower left."""
-    rows = len(values) // columns
-    plane = pv.Plane(Origin=[-0.9, -0.9, 0], Point1=[0.9, -0.9, 0], Point2=[-0.9, 0.9, 0],
-                     XResolution=columns, YResolution=rows)
-    source = pv.ProgrammableFilter(Input=plane, CopyArrays=1)
-    source.Script = (f"import numpy\noutput.CellData.append(numpy.array({values!r}), {name!r})")
-    return source
+def written_plane(file_name, columns, arrays):
+    """A file with the square of new_plane() in `columns` x `columns` cells, with arrays on them."""
+    plane = vtkPlaneSource()
+    plane.SetOrigin(-0.9, -0.9, 0)
+    plane.SetPoint1(0.9, -0.9, 0)
+    plane.SetPoint2(-0.9, 0.9, 0)
+    plane.SetResolution(columns, columns)
+    plane.Update()
+    data = plane.GetOutput()
+    for name, values in arrays.items():
+        array = numpy_to_vtk(np.asarray(values), deep=True)
+        array.SetName(name)
+        data.GetCellData().AddArray(array)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(os.path.join(FOLDER, file_name))
+    writer.SetInputData(data)
+    writer.Write()
+    return writer.GetFileName()
+
+
+def cells_with(name, values):
+    """Two by two cells with these values, from the lower left."""
+    return pv.XMLPolyDataReader(FileName=[written_plane(name + ".vtp", 2, {name: values})])
 
 
 def test_the_data_decides_what_is_shown():
@@ -306,25 +322,10 @@ def test_interaction_draws_the_coarse_surface_with_the_same_light():
 
 def test_time_changes_light_and_surface():
     view = new_view()
-    source = pv.ProgrammableSource(OutputDataSetType="vtkPolyData")
-    source.ScriptRequestInformation = """
-executive = self.GetExecutive()
-info = executive.GetOutputInformation(0)
-times = [0.0, 1.0, 2.0]
-info.Remove(executive.TIME_STEPS())
-for t in times: info.Append(executive.TIME_STEPS(), t)
-info.Remove(executive.TIME_RANGE())
-info.Append(executive.TIME_RANGE(), 0.0); info.Append(executive.TIME_RANGE(), 2.0)"""
-    source.Script = """
-from vtkmodules.vtkFiltersSources import vtkPlaneSource
-import numpy
-time = self.GetOutputInformation(0).Get(vtk.vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP())
-plane = vtkPlaneSource()
-plane.SetOrigin(-0.9, -0.9, 0); plane.SetPoint1(0.9, -0.9, 0); plane.SetPoint2(-0.9, 0.9, 0)
-plane.Update()
-output.VTKObject.ShallowCopy(plane.GetOutput())
-name = "Radiance" if time == 1 else "DiffuseReflectance"
-output.CellData.append(numpy.array([0.3 + 0.2*time]), name)"""
+    source = pv.XMLPolyDataReader(FileName=[
+        written_plane(f"time{t}.vtp", 1,
+                      {"Radiance" if t == 1 else "DiffuseReflectance": [0.3 + 0.2 * t]})
+        for t in range(3)])
     show_surface(source, view)
     sun(0.5, view)
     for time, value in ((0, 0.3 * 0.5), (1, 0.5), (2, 0.7 * 0.5), (0, 0.3 * 0.5)):
@@ -393,18 +394,13 @@ def test_every_kind_of_data():
         pv.Delete(view)
 
 
-def test_ghost_cells_are_not_drawn_twice():
-    """Half transparent: a cell that were drawn twice would be seen."""
+def test_ghost_cells_are_those_that_paraview_leaves_out():
     view = new_view()
     view.UseLight = 0
-    plane = new_plane(8)
-    ghosts = pv.ProgrammableFilter(Input=plane, CopyArrays=1)
-    ghosts.Script = """
-import numpy
-from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
-marks = numpy.zeros(64, dtype=numpy.uint8)
-marks[:8] = vtkDataSetAttributes.DUPLICATECELL
-output.CellData.append(marks, vtkDataSetAttributes.GhostArrayName())"""
+    marks = np.zeros(64, dtype=np.uint8)
+    marks[:8] = vtkDataSetAttributes.DUPLICATECELL
+    ghosts = pv.XMLPolyDataReader(FileName=[
+        written_plane("ghosts.vtp", 8, {vtkDataSetAttributes.GhostArrayName(): marks})])
     surface = show_surface(ghosts, view)
     sun(0.5, view)
     image = picture(view)
@@ -412,6 +408,7 @@ output.CellData.append(marks, vtkDataSetAttributes.GhostArrayName())"""
     surface.Representation = "Surface"
     stock = picture(view)
     check(((image > 0) == (stock > 0)).all(), "other cells than ParaView draws")
+    expect(image, 0.3, -0.8, 0)
     pv.Delete(view)
 
 
