@@ -11,31 +11,6 @@ namespace color = radiometry::color;
 namespace displaypass
 {
 
-WithoutBackground::WithoutBackground(vtkRenderer* renderer)
-  : Renderer(renderer)
-  , Gradient(renderer->GetGradientBackground())
-  , Textured(renderer->GetTexturedBackground())
-  , Alpha(renderer->GetBackgroundAlpha())
-{
-  renderer->GetBackground(this->Color);
-  this->Set(false, false, 0.0, 0.0, 0.0, 0.0);
-}
-
-WithoutBackground::~WithoutBackground()
-{
-  this->Set(
-    this->Gradient, this->Textured, this->Alpha, this->Color[0], this->Color[1], this->Color[2]);
-}
-
-void WithoutBackground::Set(
-  bool gradient, bool textured, double alpha, double r, double g, double b)
-{
-  this->Renderer->SetGradientBackground(gradient);
-  this->Renderer->SetTexturedBackground(textured);
-  this->Renderer->SetBackgroundAlpha(alpha);
-  this->Renderer->SetBackground(r, g, b);
-}
-
 Area AreaOf(const vtkRenderState* s)
 {
   Area area;

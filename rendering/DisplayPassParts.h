@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private to rendering/: the parts of vtkOpenColorIOPass that know no colour.
+// Private to rendering/: where to draw, and tables of colours.
 #ifndef DisplayPassParts_h
 #define DisplayPassParts_h
 
@@ -8,32 +8,11 @@
 #include "vtkSmartPointer.h"
 
 class vtkOpenGLRenderWindow;
-class vtkRenderer;
 class vtkRenderState;
 class vtkTextureObject;
 
 namespace displaypass
 {
-
-/// The renderer clears to nothing while the delegate draws, so that the background is neither
-/// converted nor mixed into what lies translucent over it.
-class WithoutBackground
-{
-public:
-  explicit WithoutBackground(vtkRenderer* renderer);
-  ~WithoutBackground();
-  WithoutBackground(const WithoutBackground&) = delete;
-  void operator=(const WithoutBackground&) = delete;
-
-private:
-  void Set(bool gradient, bool textured, double alpha, double r, double g, double b);
-
-  vtkRenderer* Renderer;
-  bool Gradient;
-  bool Textured;
-  double Alpha;
-  double Color[3];
-};
 
 /// The rectangle of the current frame buffer that belongs to the renderer.
 struct Area

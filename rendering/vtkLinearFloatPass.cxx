@@ -1,454 +1,619 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLinearFloatPass.h"
 
-#include "ShaderTemplate.h"
-#include "vtkLinearFloatCopyFS.h"
+#include "DisplayPassParts.h"
+#include "FloatTarget.h"
+#include "PropGroups.h"
 #include "vtkLinearFloatMeanFS.h"
+#include "vtkLinearFloatShowFS.h"
 
 #include "vtk_glew.h"
 
 #include "vtkCamera.h"
-#include "vtkCameraPass.h"
-#include "vtkFloatArray.h"
+#include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkLightsPass.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
+#include "vtkOpenGLActor.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
-#include "vtkOpenGLRenderUtilities.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLRenderer.h"
 #include "vtkOpenGLState.h"
-#include "vtkOverlayPass.h"
-#include "vtkPixelBufferObject.h"
 #include "vtkPointData.h"
-#include "vtkRenderPassCollection.h"
+#include "vtkProp.h"
+#include "vtkPropCollection.h"
 #include "vtkRenderState.h"
-#include "vtkRenderer.h"
-#include "vtkSequencePass.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 #include "vtkTranslucentPass.h"
 #include "vtkVolumetricPass.h"
+#include "vtkWeakPointer.h"
 
 #include <vector>
+
+using displaypass::Area;
+using vtkradiometry::FullScreenPass;
+using vtkradiometry::OnlyThese;
+using vtkradiometry::PropGroups;
+using vtkradiometry::Target;
 
 vtkStandardNewMacro(vtkLinearFloatPass);
 
 namespace
 {
 
-/// The renderer's background while a picture is drawn without one.
-class BackgroundSwitch
+/// Puts back what drawing into another target changes.
+class TargetGuard
 {
 public:
-  explicit BackgroundSwitch(vtkRenderer* renderer)
-    : Renderer(renderer)
-    , Alpha(renderer->GetBackgroundAlpha())
-    , Gradient(renderer->GetGradientBackground())
-    , Textured(renderer->GetTexturedBackground())
+  explicit TargetGuard(vtkOpenGLState* state)
+    : State(state)
+    , Viewport(state)
+    , Scissor(state)
+    , ScissorTest(state, GL_SCISSOR_TEST)
+    , DepthTest(state, GL_DEPTH_TEST)
+    , DepthFunction(state)
+    , DepthMask(state)
   {
-    renderer->GetBackground(this->Color);
-    renderer->SetBackground(0.0, 0.0, 0.0);
-    renderer->SetBackgroundAlpha(0.0);
-    renderer->SetGradientBackground(false);
-    renderer->SetTexturedBackground(false);
+    state->PushFramebufferBindings();
   }
-  ~BackgroundSwitch()
-  {
-    this->Renderer->SetBackground(this->Color);
-    this->Renderer->SetBackgroundAlpha(this->Alpha);
-    this->Renderer->SetGradientBackground(this->Gradient);
-    this->Renderer->SetTexturedBackground(this->Textured);
-  }
-  BackgroundSwitch(const BackgroundSwitch&) = delete;
-  void operator=(const BackgroundSwitch&) = delete;
+  ~TargetGuard() { this->State->PopFramebufferBindings(); }
+  TargetGuard(const TargetGuard&) = delete;
+  void operator=(const TargetGuard&) = delete;
 
 private:
-  vtkRenderer* Renderer;
-  double Color[3];
-  double Alpha;
-  bool Gradient;
-  bool Textured;
+  vtkOpenGLState* State;
+  vtkOpenGLState::ScopedglViewport Viewport;
+  vtkOpenGLState::ScopedglScissor Scissor;
+  vtkOpenGLState::ScopedglEnableDisable ScissorTest;
+  vtkOpenGLState::ScopedglEnableDisable DepthTest;
+  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
+  vtkOpenGLState::ScopedglDepthMask DepthMask;
 };
-
-vtkOpenGLQuadHelper* MakeQuad(
-  vtkOpenGLRenderWindow* window, const char* declarations, const char* implementation)
-{
-  std::string source = vtkOpenGLRenderUtilities::GetFullScreenQuadFragmentShaderTemplate();
-  vtkShaderProgram::Substitute(source, "//VTK::FSQ::Decl", declarations);
-  vtkShaderProgram::Substitute(
-    source, "//VTK::FSQ::Impl", vtkradiometry::ExpandShader(implementation, {}));
-  return new vtkOpenGLQuadHelper(window,
-    vtkOpenGLRenderUtilities::GetFullScreenQuadVertexShader().c_str(), source.c_str(), "");
-}
 
 } // namespace
 
-vtkLinearFloatPass::vtkLinearFloatPass()
+struct vtkLinearFloatPass::Internals
 {
-  vtkNew<vtkRenderPassCollection> passes;
-  passes->AddItem(vtkNew<vtkLightsPass>());
-  passes->AddItem(vtkNew<vtkOpaquePass>());
-  passes->AddItem(vtkNew<vtkTranslucentPass>());
-  passes->AddItem(vtkNew<vtkVolumetricPass>());
-  vtkNew<vtkSequencePass> sequence;
-  sequence->SetPasses(passes);
-  vtkNew<vtkCameraPass> camera;
-  camera->SetDelegatePass(sequence);
-  this->DefaultPass = camera;
-  this->OverlayPass = vtkSmartPointer<vtkOverlayPass>::New();
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  Target Light; ///< all light, Samples x Samples texels a pixel
+  Target Seen;  ///< the light that other opaque surfaces leave, where it cannot be told by depth
+  Target Other; ///< what is opaque and no light, one texel a pixel
+  Target Pixel; ///< the mean of Light
+  FullScreenPass Show;
+  FullScreenPass Mean;
+  FullScreenPass CopyDepth;
+  vtkNew<vtkLightsPass> Lights;
+  vtkNew<vtkOpaquePass> Opaque;
+  vtkNew<vtkTranslucentPass> Translucent;
+  vtkNew<vtkVolumetricPass> Volumes;
+
+  int Width = 0;
+  int Height = 0;
+  int Samples = 1; ///< of what Light holds
+  double ClippingRange[2] = { 0.0, 1.0 };
+  bool Parallel = false;
+  bool HasNearest = false; ///< Seen holds the depth of all surfaces
+  vtkNew<vtkImageData> Images[5];
+
+  void Adopt(vtkLinearFloatPass* self, vtkRenderer* renderer);
+  void DrawLinear(
+    vtkLinearFloatPass* self, vtkRenderer* renderer, const PropGroups& groups, Target& target);
+  void DrawScene(vtkLinearFloatPass* self, vtkRenderer* renderer, std::vector<vtkProp*>& props,
+    Target& target);
+  void HideBehindOthers(Target& target);
+  void DrawNearest(vtkLinearFloatPass* self, vtkRenderer* renderer, const PropGroups& groups);
+  void DrawOther(vtkRenderer* renderer, PropGroups& groups);
+  void AverageSamples();
+  void ClearBackground(vtkLinearFloatPass* self, const vtkRenderState* s, const Area& area);
+  bool ShowAll(
+    vtkLinearFloatPass* self, const vtkRenderState* s, const Area& area, bool others, bool hidden);
+  int DrawRest(const vtkRenderState* s, PropGroups& groups, const Area& area);
+};
+
+vtkLinearFloatPass::vtkLinearFloatPass()
+  : Parts(new Internals)
+{
 }
 
 vtkLinearFloatPass::~vtkLinearFloatPass()
 {
-  if (this->FrameBufferObject || this->PixelBuffer || this->ColorTexture || this->QuadHelper)
+  if (this->Parts->Window)
   {
-    this->ReleaseGraphicsResources(this->Window);
+    this->vtkLinearFloatPass::ReleaseGraphicsResources(this->Parts->Window);
   }
 }
 
-vtkRenderPass* vtkLinearFloatPass::ScenePass()
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::Internals::Adopt(vtkLinearFloatPass* self, vtkRenderer* renderer)
 {
-  return this->DelegatePass ? this->DelegatePass : this->DefaultPass.Get();
-}
-
-void vtkLinearFloatPass::Allocate(vtkOpenGLRenderWindow* window, int width, int height)
-{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (this->Window != window)
   {
-    this->ReleaseGraphicsResources(this->Window);
+    self->ReleaseGraphicsResources(this->Window);
     this->Window = window;
   }
-  const auto make = [window](vtkTextureObject*& texture) {
-    if (!texture)
-    {
-      texture = vtkTextureObject::New();
-      texture->SetContext(window);
-      texture->SetMinificationFilter(vtkTextureObject::Nearest);
-      texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-    }
-  };
-  const auto sized = [](vtkTextureObject* texture, int w, int h) {
-    return texture->GetHandle() && texture->GetWidth() == static_cast<unsigned int>(w) &&
-      texture->GetHeight() == static_cast<unsigned int>(h);
-  };
-  const int n = this->Samples;
-  make(this->ColorTexture);
-  if (!sized(this->ColorTexture, n * width, n * height))
+  this->Samples = self->Samples;
+  this->Parallel = renderer->GetActiveCamera()->GetParallelProjection() != 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::Internals::DrawScene(vtkLinearFloatPass* self, vtkRenderer* renderer,
+  std::vector<vtkProp*>& props, Target& target)
+{
+  const OnlyThese only(renderer, props);
+  vtkRenderState inner(renderer);
+  inner.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
+  inner.SetFrameBuffer(target.Buffer);
+  if (self->DelegatePass)
   {
-    this->ColorTexture->Allocate2D(n * width, n * height, 4, VTK_FLOAT);
+    // The target is clear, and its depth may already hold what hides light.
+    const vtkTypeBool erase = renderer->GetErase();
+    renderer->SetErase(0);
+    self->DelegatePass->Render(&inner);
+    renderer->SetErase(erase);
+    self->NumberOfRenderedProps += self->DelegatePass->GetNumberOfRenderedProps();
+    return;
   }
-  make(this->DepthTexture);
-  if (!sized(this->DepthTexture, n * width, n * height))
+  std::vector<vtkProp*> sorted = props;
+  vtkradiometry::SortBackToFront(sorted, renderer);
+  vtkRenderState blended(renderer);
+  blended.SetPropArrayAndCount(sorted.data(), static_cast<int>(sorted.size()));
+  blended.SetFrameBuffer(target.Buffer);
+  this->Lights->Render(&inner);
+  this->Opaque->Render(&inner);
+  this->Translucent->Render(&blended);
+  this->Volumes->Render(&blended);
+  self->NumberOfRenderedProps += this->Opaque->GetNumberOfRenderedProps() +
+    this->Translucent->GetNumberOfRenderedProps() + this->Volumes->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::Internals::HideBehindOthers(Target& target)
+{
+  const std::string source = vtkradiometry::FullScreenShader(
+    "uniform sampler2D otherDepth;\n",
+    "  ivec2 pixel = ivec2(texCoord * vec2(textureSize(otherDepth, 0)));\n"
+    "  gl_FragDepth = texelFetch(otherDepth, pixel, 0).r;\n"
+    "  gl_FragData[0] = vec4(0.0);\n");
+  vtkOpenGLState* state = this->Window->GetState();
+  if (!this->CopyDepth.Ready(this->Window, source))
   {
-    this->DepthTexture->AllocateDepth(n * width, n * height, vtkTextureObject::Float32);
+    return;
   }
-  const auto makeBuffer = [window](vtkOpenGLFramebufferObject*& buffer) {
-    if (!buffer)
-    {
-      buffer = vtkOpenGLFramebufferObject::New();
-      buffer->SetContext(window);
-    }
-  };
-  makeBuffer(this->FrameBufferObject);
-  if (n > 1)
+  target.Bind(this->Window);
+  vtkShaderProgram* program = this->CopyDepth.Quad()->Program;
+  this->Other.Depth->Activate();
+  program->SetUniformi("otherDepth", this->Other.Depth->GetTextureUnit());
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_ALWAYS);
+  state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  this->CopyDepth.Quad()->Render();
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  this->Other.Depth->Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::Internals::DrawLinear(
+  vtkLinearFloatPass* self, vtkRenderer* renderer, const PropGroups& groups, Target& target)
+{
+  const TargetGuard guard(this->Window->GetState());
+  target.Allocate(this->Window, this->Samples * this->Width, this->Samples * this->Height,
+    VTK_FLOAT, true);
+  target.Bind(this->Window);
+  target.Clear(this->Window);
+  if (self->KeepBackground && renderer->GetErase())
   {
-    make(this->PixelTexture);
-    if (!sized(this->PixelTexture, width, height))
+    renderer->Clear();
+  }
+  if (&target == &this->Seen && !this->HasNearest)
+  {
+    this->HideBehindOthers(target);
+  }
+  std::vector<vtkProp*> props = groups.Linear;
+  if (!props.empty() || self->DelegatePass)
+  {
+    this->DrawScene(self, renderer, props, target);
+  }
+  renderer->GetActiveCamera()->GetClippingRange(this->ClippingRange);
+}
+
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::Internals::DrawOther(vtkRenderer* renderer, PropGroups& groups)
+{
+  const TargetGuard guard(this->Window->GetState());
+  this->Other.Allocate(this->Window, this->Width, this->Height, VTK_UNSIGNED_CHAR, true);
+  this->Other.Bind(this->Window);
+  this->Other.Clear(this->Window);
+  const OnlyThese only(renderer, groups.Other);
+  vtkRenderState inner(renderer);
+  inner.SetPropArrayAndCount(groups.Other.data(), static_cast<int>(groups.Other.size()));
+  inner.SetFrameBuffer(this->Other.Buffer);
+  this->Lights->Render(&inner);
+  renderer->DeviceRenderOpaqueGeometry(this->Other.Buffer);
+}
+
+//------------------------------------------------------------------------------
+// Translucent surfaces leave no depth; here they do, and the colours do not matter.
+void vtkLinearFloatPass::Internals::DrawNearest(
+  vtkLinearFloatPass* self, vtkRenderer* renderer, const PropGroups& groups)
+{
+  this->HasNearest = groups.LinearIsTranslucent();
+  if (!this->HasNearest)
+  {
+    return;
+  }
+  for (vtkProp* prop : groups.Linear)
+  {
+    if (!prop->GetPropertyKeys())
     {
-      this->PixelTexture->Allocate2D(width, height, 4, VTK_FLOAT);
+      prop->SetPropertyKeys(vtkNew<vtkInformation>());
     }
-    makeBuffer(this->PixelBuffer);
+    prop->GetPropertyKeys()->Set(vtkOpenGLActor::GLDepthMaskOverride(), 1);
+  }
+  this->DrawLinear(self, renderer, groups, this->Seen);
+  for (vtkProp* prop : groups.Linear)
+  {
+    prop->GetPropertyKeys()->Remove(vtkOpenGLActor::GLDepthMaskOverride());
   }
 }
 
-void vtkLinearFloatPass::RenderScene(const vtkRenderState* s, int width, int height)
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::Internals::AverageSamples()
+{
+  if (this->Samples == 1)
+  {
+    return;
+  }
+  vtkOpenGLState* state = this->Window->GetState();
+  const TargetGuard guard(state);
+  const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  this->Pixel.Allocate(this->Window, this->Width, this->Height, VTK_FLOAT, false);
+  this->Pixel.Bind(this->Window);
+  const std::string source = vtkradiometry::FullScreenShader(
+    "uniform sampler2D colorSource;\nuniform int samples;\n", vtkLinearFloatMeanFS);
+  if (this->Mean.Ready(this->Window, source))
+  {
+    state->vtkglDisable(GL_DEPTH_TEST);
+    state->vtkglDisable(GL_BLEND);
+    vtkShaderProgram* program = this->Mean.Quad()->Program;
+    this->Light.Color->Activate();
+    program->SetUniformi("colorSource", this->Light.Color->GetTextureUnit());
+    program->SetUniformi("samples", this->Samples);
+    this->Mean.Quad()->Render();
+    this->Light.Color->Deactivate();
+  }
+}
+
+//------------------------------------------------------------------------------
+// Under a camera pass the frame buffer is clear already; as the outermost pass nobody did it.
+void vtkLinearFloatPass::Internals::ClearBackground(
+  vtkLinearFloatPass* self, const vtkRenderState* s, const Area& area)
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  if ((renderer->GetPass() != self && !s->GetFrameBuffer()) || !renderer->GetErase() ||
+    !this->Window->GetErase())
+  {
+    return;
+  }
+  vtkOpenGLState* state = this->Window->GetState();
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglScissor scissor(state);
+  const vtkOpenGLState::ScopedglEnableDisable scissorTest(state, GL_SCISSOR_TEST);
+  state->vtkglViewport(area.X, area.Y, area.Width, area.Height);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(area.X, area.Y, area.Width, area.Height);
+  renderer->Clear();
+}
+
+//------------------------------------------------------------------------------
+bool vtkLinearFloatPass::Internals::ShowAll(vtkLinearFloatPass* self, const vtkRenderState* s,
+  const Area& area, bool others, bool hidden)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  const vtkOpenGLState::ScopedglEnableDisable test(state, GL_DEPTH_TEST);
+  const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
+  const vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
+  const vtkOpenGLState::ScopedglDepthMask depthMask(state);
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglScissor scissor(state);
+  std::string source = vtkLinearFloatShowFS;
+  vtkShaderProgram::Substitute(
+    source, "//VTK::Display::Dec", self->DisplayFunction(this->Window));
+  if (!this->Show.Ready(this->Window, source))
+  {
+    return false;
+  }
+  vtkShaderProgram* program = this->Show.Quad()->Program;
+  const Target& light = hidden ? this->Seen : this->Light;
+  // Samplers need a texture even where the shader does not read it.
+  const Target& other = others ? this->Other : light;
+  std::vector<vtkTextureObject*> textures;
+  const auto bind = [&](vtkTextureObject* texture, const char* name) {
+    texture->Activate();
+    textures.push_back(texture);
+    program->SetUniformi(name, texture->GetTextureUnit());
+  };
+  bind(light.Color, "linearColor");
+  bind(light.Depth, "linearDepth");
+  bind(other.Color, "otherColor");
+  bind(other.Depth, "otherDepth");
+  program->SetUniformi("samples", this->Samples);
+  program->SetUniformi("others", others ? (hidden ? 2 : 1) : 0);
+  program->SetUniformi("bounded", s->GetFrameBuffer() ? 0 : 1);
+  self->StartDisplay(program);
+  state->vtkglViewport(area.X, area.Y, area.Width, area.Height);
+  state->vtkglScissor(area.X, area.Y, area.Width, area.Height);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  state->vtkglEnable(GL_DEPTH_TEST); // or depth is not written
+  state->vtkglDepthFunc(GL_ALWAYS);
+  state->vtkglDepthMask(GL_TRUE);
+  this->Show.Quad()->Render();
+  self->FinishDisplay();
+  for (vtkTextureObject* texture : textures)
+  {
+    texture->Deactivate();
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+int vtkLinearFloatPass::Internals::DrawRest(
+  const vtkRenderState* s, PropGroups& groups, const Area& area)
 {
   vtkRenderer* renderer = s->GetRenderer();
   vtkOpenGLState* state = this->Window->GetState();
-  vtkOpenGLFramebufferObject* target = this->FrameBufferObject;
-  target->Bind();
-  target->AddColorAttachment(0, this->ColorTexture);
-  target->ActivateBuffer(0);
-  target->AddDepthAttachment(this->DepthTexture);
-  target->StartNonOrtho(width, height);
-
-  vtkOpenGLState::ScopedglViewport viewport(state);
-  vtkOpenGLState::ScopedglScissor scissor(state);
-  state->vtkglViewport(0, 0, width, height);
-  state->vtkglScissor(0, 0, width, height);
-  // Renderers in upper layers do not clear; this target is nobody else's.
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  state->vtkglClearDepth(1.0);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDepthFunc(GL_LEQUAL);
-
-  vtkRenderState inner(renderer);
-  inner.SetPropArrayAndCount(s->GetPropArray(), s->GetPropArrayCount());
-  inner.SetFrameBuffer(target);
-  vtkRenderPass* scene = this->ScenePass();
-  if (this->KeepBackground)
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglScissor scissor(state);
+  state->vtkglViewport(area.X, area.Y, area.Width, area.Height);
+  state->vtkglScissor(area.X, area.Y, area.Width, area.Height);
+  const bool translucent = groups.OtherIsTranslucent();
+  if (translucent)
   {
-    scene->Render(&inner);
+    const OnlyThese only(renderer, groups.Other);
+    renderer->DeviceRenderTranslucentPolygonalGeometry(s->GetFrameBuffer());
+  }
+  int rendered = 0;
+  for (vtkProp* prop : groups.Flat)
+  {
+    rendered += prop->RenderOpaqueGeometry(renderer); // where texts make their textures
+  }
+  if (!translucent || !renderer->GetUseDepthPeeling() || !renderer->GetUseDepthPeelingForVolumes())
+  {
+    for (vtkProp* prop : groups.Other)
+    {
+      rendered += prop->RenderVolumetricGeometry(renderer);
+    }
+  }
+  for (vtkProp* prop : groups.All)
+  {
+    rendered += prop->RenderOverlay(renderer);
+  }
+  return rendered;
+}
+
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::RenderSelection(const vtkRenderState* s)
+{
+  // Selection reads ids out of the frame buffer as it is.
+  vtkRenderer* renderer = s->GetRenderer();
+  if (renderer->GetPass() == this)
+  {
+    renderer->SetPass(nullptr);
+    renderer->DeviceRender();
+    renderer->SetPass(this);
   }
   else
   {
-    BackgroundSwitch dark(renderer);
-    scene->Render(&inner);
-  }
-  this->NumberOfRenderedProps += scene->GetNumberOfRenderedProps();
-}
-
-void vtkLinearFloatPass::Copy(vtkOpenGLRenderWindow* window, int samples)
-{
-  vtkOpenGLState* state = window->GetState();
-  if (samples > 1)
-  {
-    state->PushFramebufferBindings();
-    this->PixelBuffer->Bind();
-    this->PixelBuffer->AddColorAttachment(0, this->PixelTexture);
-    this->PixelBuffer->ActivateBuffer(0);
-    this->PixelBuffer->StartNonOrtho(this->Size[0], this->Size[1]);
-    vtkOpenGLState::ScopedglViewport viewport(state);
-    vtkOpenGLState::ScopedglScissor scissor(state);
-    state->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
-    state->vtkglScissor(0, 0, this->Size[0], this->Size[1]);
-    if (!this->MeanHelper)
-    {
-      this->MeanHelper = MakeQuad(
-        window, "uniform sampler2D colorSource;\nuniform int samples;\n", vtkLinearFloatMeanFS);
-    }
-    else
-    {
-      window->GetShaderCache()->ReadyShaderProgram(this->MeanHelper->Program);
-    }
-    if (this->MeanHelper->Program && this->MeanHelper->Program->GetCompiled())
-    {
-      state->vtkglDisable(GL_DEPTH_TEST);
-      this->ColorTexture->Activate();
-      this->MeanHelper->Program->SetUniformi("colorSource", this->ColorTexture->GetTextureUnit());
-      this->MeanHelper->Program->SetUniformi("samples", samples);
-      this->MeanHelper->Render();
-      this->ColorTexture->Deactivate();
-      state->vtkglEnable(GL_DEPTH_TEST);
-    }
-    state->PopFramebufferBindings();
+    this->ClearLights(renderer);
+    this->UpdateLightGeometry(renderer);
+    this->UpdateLights(renderer);
+    this->UpdateGeometry(renderer, s->GetFrameBuffer());
   }
 }
 
+//------------------------------------------------------------------------------
 void vtkLinearFloatPass::Render(const vtkRenderState* s)
 {
   vtkOpenGLClearErrorMacro();
   this->NumberOfRenderedProps = 0;
   vtkRenderer* renderer = s->GetRenderer();
-  vtkOpenGLRenderWindow* window =
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (renderer->GetSelector())
   {
-    // Selection reads ids out of the window's own buffer, and draws them without passes.
-    if (this->DelegatePass)
-    {
-      this->DelegatePass->Render(s);
-      this->NumberOfRenderedProps = this->DelegatePass->GetNumberOfRenderedProps();
-    }
-    else
-    {
-      const vtkSmartPointer<vtkRenderPass> pass = renderer->GetPass();
-      renderer->SetPass(nullptr);
-      renderer->DeviceRender();
-      renderer->SetPass(pass);
-    }
+    this->RenderSelection(s);
     return;
   }
-
-  int origin[2] = { 0, 0 };
-  if (auto* outer = vtkOpenGLFramebufferObject::SafeDownCast(s->GetFrameBuffer()))
-  {
-    outer->GetLastSize(this->Size);
-  }
-  else
-  {
-    renderer->GetTiledSizeAndOrigin(&this->Size[0], &this->Size[1], &origin[0], &origin[1]);
-  }
-  if (this->Size[0] <= 0 || this->Size[1] <= 0)
+  const Area area = displaypass::AreaOf(s);
+  if (area.Width <= 0 || area.Height <= 0)
   {
     return;
   }
-  this->Allocate(window, this->Size[0], this->Size[1]);
-  this->FrameSamples = this->Samples;
-  this->Parallel = renderer->GetActiveCamera()->GetParallelProjection() != 0;
-
-  vtkOpenGLState* state = window->GetState();
-  state->PushFramebufferBindings();
-  this->RenderScene(s, this->Samples * this->Size[0], this->Samples * this->Size[1]);
-  state->PopFramebufferBindings();
-  renderer->GetActiveCamera()->GetClippingRange(this->ClippingRange);
-
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable depth(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
-  state->vtkglDisable(GL_BLEND);
-  this->Copy(window, this->Samples);
-
-  if (!this->QuadHelper)
+  Internals& parts = *this->Parts;
+  parts.Adopt(this, renderer);
+  parts.Width = area.Width;
+  parts.Height = area.Height;
+  PropGroups groups(s, this->AllSceneLinear);
+  parts.HasNearest = false;
+  parts.DrawLinear(this, renderer, groups, parts.Light);
+  parts.AverageSamples();
+  const bool others = groups.OtherIsOpaque();
+  // Translucent light covers what it does not hide: no depth tells it from what is behind others.
+  const bool hidden = others && groups.LinearIsTranslucent() &&
+    !vtkLinearFloatPass::SafeDownCast(this->DelegatePass);
+  if (others)
   {
-    this->QuadHelper = MakeQuad(window,
-      "uniform sampler2D colorSource;\nuniform sampler2D depthSource;\nuniform int samples;\n",
-      vtkLinearFloatCopyFS);
+    parts.DrawOther(renderer, groups);
   }
-  else
+  if (hidden)
   {
-    window->GetShaderCache()->ReadyShaderProgram(this->QuadHelper->Program);
+    parts.DrawLinear(this, renderer, groups, parts.Seen);
   }
-  vtkShaderProgram* program = this->QuadHelper->Program;
-  if (!program || !program->GetCompiled())
+  parts.ClearBackground(this, s, area);
+  if (!parts.ShowAll(this, s, area, others, hidden))
   {
-    vtkErrorMacro("the shader that copies the float picture was not compiled");
+    vtkErrorMacro("the shader that shows the picture does not compile");
     return;
   }
-  vtkTextureObject* pixels = this->Samples > 1 ? this->PixelTexture : this->ColorTexture;
-  vtkOpenGLState::ScopedglViewport viewport(state);
-  vtkOpenGLState::ScopedglScissor scissor(state);
-  state->vtkglViewport(origin[0], origin[1], this->Size[0], this->Size[1]);
-  state->vtkglScissor(origin[0], origin[1], this->Size[0], this->Size[1]);
-  state->vtkglEnable(GL_DEPTH_TEST); // or depth is not written
-  state->vtkglDepthFunc(GL_ALWAYS);
-  state->vtkglDepthMask(GL_TRUE);
-  pixels->Activate();
-  this->DepthTexture->Activate();
-  program->SetUniformi("colorSource", pixels->GetTextureUnit());
-  program->SetUniformi("depthSource", this->DepthTexture->GetTextureUnit());
-  program->SetUniformi("samples", this->Samples);
-  this->QuadHelper->Render();
-  pixels->Deactivate();
-  this->DepthTexture->Deactivate();
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglEnable(GL_BLEND);
-  if (!this->DelegatePass)
-  {
-    this->OverlayPass->Render(s);
-    this->NumberOfRenderedProps += this->OverlayPass->GetNumberOfRenderedProps();
-  }
+  this->NumberOfRenderedProps += parts.DrawRest(s, groups, area);
   vtkOpenGLCheckErrorMacro("failed after Render");
 }
 
-bool vtkLinearFloatPass::ReadTexture(
-  vtkTextureObject* texture, int components, vtkImageData* image)
+//------------------------------------------------------------------------------
+void vtkLinearFloatPass::RenderOffScreen(vtkRenderer* renderer)
 {
-  if (!this->Window || !texture || !texture->GetHandle())
+  std::vector<vtkProp*> visible;
+  vtkCollectionSimpleIterator it;
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it))
   {
-    return false;
+    if (prop->GetVisibility())
+    {
+      visible.push_back(prop);
+    }
   }
-  this->Window->MakeCurrent();
-  vtkPixelBufferObject* buffer = texture->Download();
-  if (!buffer)
+  vtkRenderState s(renderer);
+  s.SetPropArrayAndCount(visible.data(), static_cast<int>(visible.size()));
+  const Area area = displaypass::AreaOf(&s);
+  if (area.Width <= 0 || area.Height <= 0)
   {
-    return false;
+    return;
   }
-  unsigned int size[2] = { texture->GetWidth(), texture->GetHeight() };
-  vtkIdType increments[2] = { 0, 0 };
-  image->SetDimensions(static_cast<int>(size[0]), static_cast<int>(size[1]), 1);
-  image->AllocateScalars(VTK_FLOAT, components);
-  const bool read =
-    buffer->Download2D(VTK_FLOAT, image->GetScalarPointer(), size, components, increments);
-  buffer->Delete();
-  return read;
+  this->NumberOfRenderedProps = 0;
+  this->Parts->Adopt(this, renderer);
+  this->Parts->Window->MakeCurrent();
+  this->Parts->Width = area.Width;
+  this->Parts->Height = area.Height;
+  const PropGroups groups(&s, this->AllSceneLinear);
+  this->Parts->DrawLinear(this, renderer, groups, this->Parts->Light);
+  this->Parts->AverageSamples();
+  this->Parts->DrawNearest(this, renderer, groups);
 }
 
+//------------------------------------------------------------------------------
+std::string vtkLinearFloatPass::DisplayFunction(vtkOpenGLRenderWindow*)
+{
+  return "vec4 radiometryToDisplay(vec4 c) { return c; }\n";
+}
+
+void vtkLinearFloatPass::StartDisplay(vtkShaderProgram*) {}
+
+void vtkLinearFloatPass::FinishDisplay() {}
+
+std::string vtkLinearFloatPass::GetFragmentShaderSource() const { return this->Parts->Show.Text(); }
+
+//------------------------------------------------------------------------------
 vtkImageData* vtkLinearFloatPass::GetColor()
 {
-  vtkTextureObject* pixels = this->FrameSamples > 1 ? this->PixelTexture : this->ColorTexture;
-  if (!this->Color)
+  Target& source = this->Parts->Samples > 1 ? this->Parts->Pixel : this->Parts->Light;
+  vtkImageData* image = this->Parts->Images[0];
+  return vtkradiometry::ReadTexture(this->Parts->Window, source.Color, 4, "RGBA", image) ? image
+                                                                                        : nullptr;
+}
+
+vtkImageData* vtkLinearFloatPass::GetSampleColor()
+{
+  vtkImageData* image = this->Parts->Images[1];
+  return vtkradiometry::ReadTexture(
+           this->Parts->Window, this->Parts->Light.Color, 4, "RGBA", image)
+    ? image
+    : nullptr;
+}
+
+vtkImageData* vtkLinearFloatPass::GetSampleDepth()
+{
+  vtkImageData* image = this->Parts->Images[2];
+  return vtkradiometry::ReadTexture(
+           this->Parts->Window, this->Parts->Light.Depth, 1, "Depth", image)
+    ? image
+    : nullptr;
+}
+
+vtkImageData* vtkLinearFloatPass::GetSampleNearest()
+{
+  vtkImageData* image = this->Parts->Images[4];
+  return this->Parts->HasNearest &&
+      vtkradiometry::ReadTexture(
+        this->Parts->Window, this->Parts->Seen.Depth, 1, "Depth", image)
+    ? image
+    : nullptr;
+}
+
+double vtkLinearFloatPass::DistanceOf(double depth)
+{
+  const double nearPlane = this->Parts->ClippingRange[0];
+  const double farPlane = this->Parts->ClippingRange[1];
+  if (depth >= 1.0)
   {
-    this->Color = vtkSmartPointer<vtkImageData>::New();
+    return this->BackgroundDepth;
   }
-  if (!this->ReadTexture(pixels, 4, this->Color))
-  {
-    return nullptr;
-  }
-  this->Color->GetPointData()->GetScalars()->SetName("RGBA");
-  return this->Color;
+  return this->Parts->Parallel ? nearPlane + depth * (farPlane - nearPlane)
+                               : nearPlane * farPlane / (farPlane - depth * (farPlane - nearPlane));
 }
 
 vtkImageData* vtkLinearFloatPass::GetDepth()
 {
-  vtkNew<vtkImageData> raw;
-  if (!this->ReadTexture(this->DepthTexture, 1, raw))
+  vtkImageData* samples = this->GetSampleDepth();
+  if (!samples)
   {
     return nullptr;
   }
-  if (!this->Depth)
+  vtkImageData* image = this->Parts->Images[3];
+  const int width = this->Parts->Width;
+  const int height = this->Parts->Height;
+  const int n = this->Parts->Samples;
+  image->SetDimensions(width, height, 1);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  image->GetPointData()->GetScalars()->SetName("Z");
+  const float* source = static_cast<float*>(samples->GetScalarPointer());
+  float* depth = static_cast<float*>(image->GetScalarPointer());
+  for (int y = 0; y < height; ++y)
   {
-    this->Depth = vtkSmartPointer<vtkImageData>::New();
-  }
-  const int n = this->FrameSamples;
-  this->Depth->SetDimensions(this->Size[0], this->Size[1], 1);
-  this->Depth->AllocateScalars(VTK_FLOAT, 1);
-  this->Depth->GetPointData()->GetScalars()->SetName("Z");
-  const float* source = static_cast<float*>(raw->GetScalarPointer());
-  float* depth = static_cast<float*>(this->Depth->GetScalarPointer());
-  const double nearPlane = this->ClippingRange[0];
-  const double farPlane = this->ClippingRange[1];
-  for (int y = 0; y < this->Size[1]; ++y)
-  {
-    for (int x = 0; x < this->Size[0]; ++x)
+    const std::size_t row = static_cast<std::size_t>(y * n + n / 2) * width * n;
+    for (int x = 0; x < width; ++x)
     {
-      const std::size_t row = static_cast<std::size_t>(y * n + n / 2);
-      const double d = source[row * this->Size[0] * n + x * n + n / 2];
-      const double z = this->Parallel
-        ? nearPlane + d * (farPlane - nearPlane)
-        : nearPlane * farPlane / (farPlane - d * (farPlane - nearPlane));
-      *depth++ = static_cast<float>(d >= 1.0 ? this->BackgroundDepth : z);
+      *depth++ = static_cast<float>(this->DistanceOf(source[row + x * n + n / 2]));
     }
   }
-  return this->Depth;
+  return image;
 }
 
+//------------------------------------------------------------------------------
 void vtkLinearFloatPass::ReleaseGraphicsResources(vtkWindow* w)
 {
+  Internals& parts = *this->Parts;
   if (w)
   {
     this->Superclass::ReleaseGraphicsResources(w);
-    this->DefaultPass->ReleaseGraphicsResources(w);
-    this->OverlayPass->ReleaseGraphicsResources(w);
-  }
-  for (vtkOpenGLQuadHelper** quad : { &this->QuadHelper, &this->MeanHelper })
-  {
-    delete *quad;
-    *quad = nullptr;
-  }
-  for (vtkOpenGLFramebufferObject** buffer : { &this->FrameBufferObject, &this->PixelBuffer })
-  {
-    if (*buffer)
+    parts.Lights->ReleaseGraphicsResources(w);
+    parts.Opaque->ReleaseGraphicsResources(w);
+    parts.Translucent->ReleaseGraphicsResources(w);
+    parts.Volumes->ReleaseGraphicsResources(w);
+    for (Target* target : { &parts.Light, &parts.Seen, &parts.Other, &parts.Pixel })
     {
-      (*buffer)->ReleaseGraphicsResources(w);
-      (*buffer)->Delete();
-      *buffer = nullptr;
+      target->Release(w);
     }
   }
-  for (vtkTextureObject** texture :
-    { &this->ColorTexture, &this->DepthTexture, &this->PixelTexture })
+  for (FullScreenPass* pass : { &parts.Show, &parts.Mean, &parts.CopyDepth })
   {
-    if (*texture)
-    {
-      (*texture)->ReleaseGraphicsResources(w);
-      (*texture)->Delete();
-      *texture = nullptr;
-    }
+    pass->Release();
   }
-  this->Window = nullptr;
+  parts.Window = nullptr;
 }
 
 void vtkLinearFloatPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "KeepBackground: " << this->KeepBackground << "\n";
+  os << indent << "AllSceneLinear: " << this->AllSceneLinear << "\n";
   os << indent << "Samples: " << this->Samples << "\n";
   os << indent << "BackgroundDepth: " << this->BackgroundDepth << "\n";
 }

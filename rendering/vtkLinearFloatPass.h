@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkLinearFloatPass
- * @brief   draws a scene into a float frame buffer, keeps it for reading, hands it on
+ * @brief   draws light into a float frame buffer, keeps it for reading, shows it among the rest
  *
- *   Does    renders its delegate (or, without one, the scene: lights, opaque, translucent, volumes)
- *           into 32-bit float RGBA with a float depth, nothing clamped; then copies colour and
- *           depth, unchanged, into the target around it
+ *   Does    draws the scene-linear props (those whose mapper is a vtkPhongGouraudMapper with
+ *           GetSceneLinear()) into 32-bit float RGBA with a float depth, nothing clamped; then shows
+ *           them, together with all other props: colour-mapped surfaces, stock mappers, skyboxes,
+ *           axes and texts are drawn by VTK as always, in the display's colours
  *   Place   renderer->SetPass(linear) shows the linear values as they are (clamped by the window);
- *           a display transform goes around it: transform->SetDelegatePass(linear),
- *           renderer->SetPass(transform). What GetColor() reads is always before the transform.
+ *           vtkOpenColorIOPass is this pass with a display transform
+ *   Model   of opaque surfaces the nearest is seen, whichever group it belongs to, sample by sample.
+ *           Translucent light is blended with the light behind it, linearly; the share a of a pixel
+ *           that it covers lies over what else is there as shown a + (1 - a) other, where glare
+ *           brighter than a covers as much as it is bright. Other
+ *           translucent surfaces and volumes are blended over that, as VTK does: one that lies
+ *           behind translucent light is drawn as if it lay before it
  *   Units   whatever was drawn: radiance in W/(m^2 sr) from vtkPhongGouraudMapper
- *   Limits  background: alpha 0 and no light unless KeepBackground; translucent polygons are
- *           blended in drawing order; overlays (legends, text) are drawn after the copy and are
- *           not part of what is read
+ *   Cost    20 bytes a sample, 8 bytes a pixel more where other opaque props are; the light is drawn
+ *           twice where some of it is translucent and other opaque props are there
+ *   Limits  background: alpha 0 and no light unless KeepBackground; translucent actors are blended
+ *           from far to near by the middle of their bounds, the polygons of one in drawing order;
+ *           a translucent actor is drawn by this pass, not by the renderer's depth peeling
  *   Fails   no OpenGL float targets: an error event, GetColor() returns null
+ *
+ * With a delegate, the delegate draws the light (it is given these props only). During hardware
+ * selection nothing of this happens and all props draw their ids.
  */
 #ifndef vtkLinearFloatPass_h
 #define vtkLinearFloatPass_h
@@ -21,13 +32,13 @@
 #include "vtkImageProcessingPass.h"
 #include "vtkRadiometryRenderingModule.h" // for export macro
 #include "vtkSmartPointer.h"              // for ivars
-#include "vtkWeakPointer.h"               // for ivars
+
+#include <memory> // for ivars
+#include <string> // for protected methods
 
 class vtkImageData;
-class vtkOpenGLFramebufferObject;
-class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderWindow;
-class vtkTextureObject;
+class vtkShaderProgram;
 
 class VTKRADIOMETRYRENDERING_EXPORT vtkLinearFloatPass : public vtkImageProcessingPass
 {
@@ -38,6 +49,12 @@ public:
 
   void Render(const vtkRenderState* s) override;
   void ReleaseGraphicsResources(vtkWindow* w) override;
+
+  /**
+   * Draws the light of a renderer's visible props for GetColor() and its like, and shows nothing:
+   * the window keeps its picture. The camera must have been rendered with before.
+   */
+  void RenderOffScreen(vtkRenderer* renderer);
 
   ///@{
   /**
@@ -51,8 +68,20 @@ public:
 
   ///@{
   /**
-   * Samples along each side of a pixel; their mean, in linear light, is the pixel. 1 (default) to
-   * 8. Costs memory and time with its square. Depth is that of the sample in the middle.
+   * Off (default): light is what a vtkPhongGouraudMapper draws with GetSceneLinear(). On: every prop
+   * in three dimensions counts as light, whatever its mapper. Overlays (texts, legends, charts)
+   * never do.
+   */
+  vtkSetMacro(AllSceneLinear, bool);
+  vtkGetMacro(AllSceneLinear, bool);
+  vtkBooleanMacro(AllSceneLinear, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Samples of the light along each side of a pixel; their mean, in linear light, is the pixel.
+   * 1 (default) to 8. Costs memory and time with its square. Depth is that of the sample in the
+   * middle. What is not light is drawn with one sample a pixel, as without this pass.
    */
   vtkSetClampMacro(Samples, int, 1, 8);
   vtkGetMacro(Samples, int);
@@ -67,53 +96,70 @@ public:
   ///@}
 
   /**
-   * The last frame: float, four components "RGBA" (colour already multiplied by alpha), the first
-   * row at the bottom as everywhere in VTK. Null before the first frame and after the window is
-   * gone. The image belongs to the pass; the next call overwrites it.
+   * The last frame's light: float, four components "RGBA" (colour already multiplied by alpha), the
+   * first row at the bottom as everywhere in VTK. Other props are not in it and hide nothing. Null
+   * before the first frame and after the window is gone. The image belongs to the pass; the next
+   * call overwrites it.
    */
   vtkImageData* GetColor();
 
   /**
-   * The last frame's distance from the camera's plane, along its axis, in the scene's units: float,
-   * one component "Z". Good to about 6e-8 Z/near of itself. As GetColor() otherwise.
+   * The last frame's distance of the light from the camera's plane, along its axis, in the scene's
+   * units: float, one component "Z". Good to about 6e-8 Z/near of itself. As GetColor() otherwise.
    */
   vtkImageData* GetDepth();
+
+  ///@{
+  /**
+   * The same before samples are averaged: Samples x Samples texels a pixel, and the depth as the
+   * window has it, 0 at the near and 1 at the far clipping plane. For compositing.
+   */
+  vtkImageData* GetSampleColor();
+  vtkImageData* GetSampleDepth();
+  ///@}
+
+  /**
+   * After RenderOffScreen() only: as GetSampleDepth(), of translucent surfaces, too. Null where no
+   * light is translucent.
+   */
+  vtkImageData* GetSampleNearest();
+
+  /**
+   * GetDepth()'s distance for a depth of GetSampleDepth().
+   */
+  double DistanceOf(double depth);
+
+  /**
+   * The fragment shader that showed the last frame, for tests; empty before the first.
+   */
+  std::string GetFragmentShaderSource() const;
 
 protected:
   vtkLinearFloatPass();
   ~vtkLinearFloatPass() override;
 
-  void Allocate(vtkOpenGLRenderWindow* window, int width, int height);
-  void RenderScene(const vtkRenderState* s, int width, int height);
-  void Copy(vtkOpenGLRenderWindow* window, int samples);
-  bool ReadTexture(vtkTextureObject* texture, int components, vtkImageData* image);
-  vtkRenderPass* ScenePass();
+  ///@{
+  /**
+   * What light becomes on the display: the text of a GLSL function vec4 radiometryToDisplay(vec4)
+   * (here nothing changes), asked for in every frame, and what that function needs while it runs.
+   */
+  virtual std::string DisplayFunction(vtkOpenGLRenderWindow* window);
+  virtual void StartDisplay(vtkShaderProgram* program);
+  virtual void FinishDisplay();
+  ///@}
 
   bool KeepBackground = false;
+  bool AllSceneLinear = false;
   int Samples = 1;
   double BackgroundDepth = 1e10;
-
-  vtkSmartPointer<vtkRenderPass> DefaultPass;
-  vtkSmartPointer<vtkRenderPass> OverlayPass;
-  vtkOpenGLFramebufferObject* FrameBufferObject = nullptr;
-  vtkOpenGLFramebufferObject* PixelBuffer = nullptr; // of the means, when Samples > 1
-  vtkTextureObject* ColorTexture = nullptr;
-  vtkTextureObject* DepthTexture = nullptr;
-  vtkTextureObject* PixelTexture = nullptr;
-  vtkOpenGLQuadHelper* QuadHelper = nullptr;
-  vtkOpenGLQuadHelper* MeanHelper = nullptr;
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  int Size[2] = { 0, 0 };
-  int FrameSamples = 1;
-  double ClippingRange[2] = { 0.0, 1.0 };
-  bool Parallel = false;
-
-  vtkSmartPointer<vtkImageData> Color;
-  vtkSmartPointer<vtkImageData> Depth;
 
 private:
   vtkLinearFloatPass(const vtkLinearFloatPass&) = delete;
   void operator=(const vtkLinearFloatPass&) = delete;
+
+  void RenderSelection(const vtkRenderState* s);
+  struct Internals;
+  std::unique_ptr<Internals> Parts;
 };
 
 #endif

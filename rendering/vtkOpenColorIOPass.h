@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkOpenColorIOPass
- * @brief Shows a scene-linear picture on a display, through OpenColorIO on the GPU.
+ * @brief Shows scene-linear light on a display, through OpenColorIO on the GPU.
  *
- * The delegate renders into a 32-bit float target of this pass, unclamped; then one full-screen
- * pass converts it and lays it over what the frame buffer holds.
+ * A vtkLinearFloatPass (which see: what counts as light, samples, reading the light back) whose
+ * light is converted in the one full-screen pass that lays it over what the frame buffer holds.
+ * Everything else is drawn in its own colours: colour-mapped and stock surfaces, backgrounds of
+ * every kind, texts, legends, charts.
  *
- *   Model   shown = f(P / a) a + (1 - a) background, P the premultiplied linear colour, a its alpha
+ *   Model   shown = f(P / a) a + (1 - a) other, P the premultiplied linear colour, a its alpha
  *           and f the transform of color/ColorTransform.h; the depth is handed on
  *   Cost    one float RGBA and one depth texture of the window's size, one full-screen pass; the
  *           shader is built anew when a name changes, not when the exposure does
@@ -14,30 +16,26 @@
  *   Fails   a missing or broken config, an unknown name: one error event for each change, and the
  *           linear picture is shown as it is
  *
- * Pixels that nothing was drawn on (alpha 0) keep the renderer's background exactly: flat, gradient
- * or textured, it is in the display's values already. So are texts, legends and charts
- * (vtkActor2D, vtkContextActor): they are drawn over the converted picture. Any pass can be the delegate: one with a
- * camera pass of its own (vtkRenderStepsPass, vtkLinearFloatPass) where this is the renderer's
- * pass, or one without (vtkPVDefaultPass) under a camera pass. During hardware selection the
- * delegate renders directly. Not to be stacked on vtkToneMappingPass.
+ * Any pass can be the delegate that draws the light: one with a camera pass of its own
+ * (vtkRenderStepsPass, vtkLinearFloatPass) where this is the renderer's pass, or one without under a
+ * camera pass. Without a delegate this pass draws it itself. Not to be stacked on vtkToneMappingPass.
  */
 #ifndef vtkOpenColorIOPass_h
 #define vtkOpenColorIOPass_h
 
-#include "vtkImageProcessingPass.h"
+#include "vtkLinearFloatPass.h"
 #include "vtkRadiometryRenderingModule.h" // for export macro
 
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
 
-class VTKRADIOMETRYRENDERING_EXPORT vtkOpenColorIOPass : public vtkImageProcessingPass
+class VTKRADIOMETRYRENDERING_EXPORT vtkOpenColorIOPass : public vtkLinearFloatPass
 {
 public:
   static vtkOpenColorIOPass* New();
-  vtkTypeMacro(vtkOpenColorIOPass, vtkImageProcessingPass);
+  vtkTypeMacro(vtkOpenColorIOPass, vtkLinearFloatPass);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  void Render(const vtkRenderState* s) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
   ///@{
@@ -98,14 +96,13 @@ public:
    */
   std::string GetErrorMessage() const;
 
-  /**
-   * The fragment shader of the last render, for tests; empty before the first.
-   */
-  std::string GetFragmentShaderSource() const;
-
 protected:
   vtkOpenColorIOPass();
   ~vtkOpenColorIOPass() override;
+
+  std::string DisplayFunction(vtkOpenGLRenderWindow* window) override;
+  void StartDisplay(vtkShaderProgram* program) override;
+  void FinishDisplay() override;
 
 private:
   vtkOpenColorIOPass(const vtkOpenColorIOPass&) = delete;

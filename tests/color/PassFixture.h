@@ -165,6 +165,7 @@ protected:
       GTEST_SKIP() << "no display";
     }
     unsetenv("OCIO");
+    this->Display->AllSceneLinearOn();
     this->Window->SetOffScreenRendering(1);
     this->Window->SetMultiSamples(0);
     this->Window->SetSize(size, size);

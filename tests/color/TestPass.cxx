@@ -90,6 +90,7 @@ TEST_F(Pass, AroundTheLinearFloatPass)
   this->Renderer->SetBackground(0.2, 0.4, 0.6);
   vtkNew<vtkLinearFloatPass> linear;
   linear->SetSamples(3);
+  linear->AllSceneLinearOn();
   this->Display->SetDelegatePass(linear);
   this->Display->SetExposure(1);
   this->Window->Render();

@@ -69,7 +69,7 @@ def judge(path, name):
             ("radiometry/scene/", "radiometry/shading/", "radiometry/imaging/")
         ):
             return "rendering/ uses the core's scene, shading and imaging headers only"
-        if name.startswith("io/") and not name.startswith("io/OpenEXR"):
+        if name.startswith("io/") and not name.startswith("io/Exr") and name != "io/FileError.h":
             return "rendering/ uses of io/ the image files only"
         return None
     return None

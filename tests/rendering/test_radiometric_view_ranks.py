@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Radiometric View under pvbatch -np 2, and on a pvserver of 1 and 2 ranks that renders: the shown
+picture is the serial one bit for bit, and so is, to rounding, the light that CaptureLinear writes."""
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+import display
+
+display.ensure()
+
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
+from vtkradiometry.vtkRadiometryFilters import vtkOpenEXRReader  # noqa: E402
+
+if not all(shutil.which(program) for program in ("mpiexec", "pvbatch", "pvserver")):
+    print("skipped: no mpiexec, pvbatch or pvserver")
+    sys.exit(77)
+
+SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_scene.py")
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1")
+for _name in ("OCIO", "PV_PLUGIN_PATH"):  # the plugin is loaded once, by its file
+    ENVIRONMENT.pop(_name, None)
+
+
+def arrays(reader, path):
+    assert os.path.exists(path), path + " was not written"
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    x, y, _ = image.GetDimensions()
+    data = image.GetPointData()
+    return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).reshape(y, x, -1).astype(float)
+            for i in range(data.GetNumberOfArrays())}
+
+
+class Pictures:
+    def __init__(self, folder):
+        self.shown = next(iter(arrays(vtkPNGReader(), folder + "/picture.png").values()))
+        self.linear = arrays(vtkOpenEXRReader(), folder + "/linear.exr")
+        self.glass = arrays(vtkOpenEXRReader(), folder + "/glass.exr")
+
+
+def run(command):
+    subprocess.run(command, env=ENVIRONMENT, check=True, timeout=120, stdout=subprocess.DEVNULL)
+
+
+def batch(folder, *before):
+    run([*before, "pvbatch", SCENE, folder])
+    return Pictures(folder)
+
+
+def client_of_server(folder, ranks):
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = ["pvserver", f"--server-port={port}"]
+    if ranks > 1:
+        command = ["mpiexec", "-np", str(ranks), *command]
+    log = open(folder + "/server.log", "w+")
+    server = subprocess.Popen(command, env=ENVIRONMENT, stdout=log, stderr=subprocess.STDOUT)
+    try:
+        for _ in range(600):
+            time.sleep(0.1)
+            log.seek(0)
+            if "Accepting connection" in log.read() or server.poll() is not None:
+                break
+        run(["pvpython", SCENE, folder, f"127.0.0.1:{port}"])
+        server.wait(timeout=60)
+    finally:
+        server.kill()
+        server.wait()
+        log.close()
+    return Pictures(folder)
+
+
+def compare(name, serial, other):
+    difference = np.abs(serial.shown - other.shown)
+    worst = {}
+    for kind in ("linear", "glass"):
+        for array, expected in getattr(serial, kind).items():
+            got = getattr(other, kind)[array]
+            assert got.shape == expected.shape, (name, kind, array)
+            share = np.abs(got - expected) / np.maximum(np.abs(expected), 0.1)
+            worst[kind + " " + array] = share.max()
+    print(name, "shown", difference.max(), "captured", worst)
+    assert difference.max() == 0, name
+    assert max(worst.values()) <= 4e-5, (name, worst)
+
+
+with tempfile.TemporaryDirectory() as top:
+    def fresh(name):
+        path = os.path.join(top, name)
+        os.mkdir(path)
+        return path
+
+    serial = batch(fresh("serial"))
+    assert serial.shown.std() > 20 and serial.linear["RGBA"].max() > 2
+    assert serial.linear["Z"].min() > 1 and serial.linear["Z"].max() == 1e10
+    compare("pvbatch -np 2", serial, batch(fresh("two"), "mpiexec", "-np", "2"))
+    for ranks in (1, 2):
+        compare(f"pvserver, {ranks} ranks", serial, client_of_server(fresh(f"s{ranks}"), ranks))
