@@ -257,6 +257,8 @@ def test_the_float_target_gets_the_same_colours():
     picture = Picture(ramp(-0.1, 1.1), table, "E")
     before = picture.draw()
     w = Window(size=SIZE, mapper=picture.mapper)
+    assert w.draw().max() == 0  # it is no light
+    w.target.AllSceneLinearOn()
     assert (np.round(255 * w.draw()[:, :, :3]).astype(int) == before).all()
 
 

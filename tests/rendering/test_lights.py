@@ -96,6 +96,7 @@ def test_lights_of_the_renderer_give_the_diffuse_of_vtk():
             light.SetExponent(3)
             light.SetAttenuationValues(1, 0.1, 0.2)
             w.renderer.AddLight(light)
+        w.target.AllSceneLinearOn()
         pictures.append(w.draw())
     assert pictures[0][:, :, :3].max() > 0.5
     for picture in pictures[1:]:
