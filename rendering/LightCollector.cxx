@@ -274,6 +274,8 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
     const int frame = static_cast<int>(attached.Value(i, 0.0));
     result.Lights.push_back(light);
     result.Frames.push_back(static_cast<LightFrame>(std::clamp(frame, 0, 2)));
+    const Vec3& d = light.SpotDirection;
+    result.Keys.push_back({ kind, p[0], p[1], p[2], d.x, d.y, d.z });
   }
 }
 
@@ -349,6 +351,7 @@ CollectedLights CollectFromRenderer(vtkRenderer* renderer, bool physical)
     {
       result.Lights.push_back(light);
       result.Frames.push_back(LightFrame::Scene);
+      result.Keys.push_back({ -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 });
     }
     else if (result.Problem.empty())
     {

@@ -27,10 +27,14 @@ enum class LightFrame
   Camera = 2  // the eye at the origin, x right, y up, -z into the picture
 };
 
+/// Which light it is: type, position (area: first corner) and direction as its data has them.
+using LightKey = std::array<double, 7>;
+
 struct CollectedLights
 {
   std::vector<radiometry::DisplayLight> Lights;
   std::vector<LightFrame> Frames;
+  std::vector<LightKey> Keys; // type -1: a light that no data knows
   int NotDrawn = 0;    // area and environment lights: the mapper has no formula for them
   std::string Problem; // what was wrong with the arrays; empty: nothing
 };
@@ -62,7 +66,8 @@ struct LocalCoordinates
 
 /// Lights as the shaders read them: six RGBA texels a light, in local coordinates, directional
 /// lights first, then points, then spots.
-///   0  x y z of the position, or of the direction that the light comes from; unused
+///   0  x y z of the position, or of the direction that the light comes from; its place among the
+///      shares of LightVisibility (-1, as it is packed: it has none)
 ///   1  axis of the cone, 1 - cosine of its half-angle
 ///   2  diffuse colour, exponent
 ///   3  ambient colour, cosine of the inner half-angle
@@ -72,6 +77,7 @@ struct PackedLights
 {
   static constexpr int TexelsPerLight = 6;
   std::vector<float> Texels;
+  std::vector<LightKey> Keys; // of each light that was packed
   // [begin, end) of directional, point and spot lights.
   std::array<std::array<int, 2>, 3> Ranges{ { { { 0, 0 } }, { { 0, 0 } }, { { 0, 0 } } } };
   ShaderFeatures Features; // what these lights need of the shader

@@ -88,7 +88,8 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
       const Rgb specular = unit / c * light.Specular;
       const Rgb ambient = scale / c * light.Ambient;
       const double width = light.CosInnerCutoff - light.CosCutoff;
-      Put(packed.Texels, place.x, place.y, place.z, 0.0);
+      Put(packed.Texels, place.x, place.y, place.z, -1.0);
+      packed.Keys.push_back(lights.Keys[i]);
       Put(packed.Texels, axis.x, axis.y, axis.z, 1.0 - light.CosCutoff);
       Put(packed.Texels, diffuse.r, diffuse.g, diffuse.b, light.SpotExponent);
       Put(packed.Texels, ambient.r, ambient.g, ambient.b, light.CosInnerCutoff);

@@ -230,10 +230,12 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
                                       << "\": these blocks are drawn black");
   }
   this->PrepareFalseColor();
+  this->PrepareVisibility();
   this->Superclass::BuildBufferObjects(ren, act);
-  this->BuildCellBuffers(ren, act);
   this->BuildMaterials(ren, act);
+  this->BuildCellBuffers(ren, act);
   this->BuildFalseColor(ren, act);
+  this->BuildVisibility(ren, act);
 }
 
 void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* act,
@@ -255,6 +257,10 @@ void vtkPhongGouraudHelper::AppendOneBufferObject(vtkRenderer* ren, vtkActor* ac
   if (this->ScalarsOfPoints)
   {
     this->AppendScalars(block, after > before);
+  }
+  if (this->VisibilityGroupsOfPoints > 0)
+  {
+    this->AppendVisibility(block, after > before);
   }
   vtkCellArray* prims[4] = { block->GetVerts(), block->GetLines(), block->GetPolys(),
     block->GetStrips() };
@@ -307,7 +313,8 @@ void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
   this->FieldOfShared.clear();
   vtkPhongGouraudMapper* mapper = this->Mapper();
   const bool surface = act->GetProperty()->GetRepresentation() == VTK_SURFACE;
-  const bool frames = surface && mapper->FieldMode != vtkPhongGouraudMapper::FIELD_ON &&
+  const bool frames = surface &&
+    (mapper->FieldMode != vtkPhongGouraudMapper::FIELD_ON || this->Shines(act)) &&
     (mapper->Shading == vtkPhongGouraudMapper::FLAT || !this->HasPointNormals());
   const bool fields = surface && this->FieldOfCells;
   if (!frames)

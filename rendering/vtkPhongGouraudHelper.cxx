@@ -124,11 +124,13 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
   need(Has(needs, "TwoSided") && objectToWorld->Determinant() < 0.0, "Mirrored");
   need(this->DrawingEdges(ren, act), "Edges");
 
-  const bool materials = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_MATERIALS;
+  const bool materials =
+    mapper->FieldMode == vtkPhongGouraudMapper::FIELD_MATERIALS || this->HighlightsOfCells();
   const bool lit = NeedsLight(mapper);
+  const bool highlights = this->Shines(act) && Has(this->Lights.Features, "Lights");
   need(lit, "Lit");
-  need(materials, "Materials");
-  need(materials && this->EmittingMaterials, "MaterialEmission");
+  need(materials && (lit || highlights), "Materials");
+  need(materials && lit && this->EmittingMaterials, "MaterialEmission");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON, "ShowField");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE, "FieldIsReflectance");
   need(mapper->FieldMode == vtkPhongGouraudMapper::FIELD_NORMALS, "ShowNormals");
@@ -149,10 +151,10 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
 
   const bool smooth = this->HasPointNormals();
   int shading = mapper->Shading;
-  if (lit)
+  if (lit || highlights)
   {
-    need(!IsBlack(mapper->Emission) || !IsBlack(mapper->BackEmission), "Emission");
-    need(either([](vtkProperty* p) { return p->GetAmbient() > 0.0; }), "Ambient");
+    need(lit && (!IsBlack(mapper->Emission) || !IsBlack(mapper->BackEmission)), "Emission");
+    need(lit && either([](vtkProperty* p) { return p->GetAmbient() > 0.0; }), "Ambient");
     for (const std::string& feature : this->Lights.Features)
     {
       needs.insert(feature);
@@ -189,6 +191,17 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     else
     {
       needs.erase("LightSpecular");
+    }
+    const bool shadows = lights && this->UsesVisibility();
+    if (shadows)
+    {
+      this->NeedVisibility(needs);
+    }
+    if (highlights || shadows)
+    {
+      // Highlights are drawn pixel by pixel, and so are shares of light.
+      const bool flat = shading == vtkPhongGouraudMapper::FLAT;
+      shading = flat ? vtkPhongGouraudMapper::FLAT : vtkPhongGouraudMapper::PHONG;
     }
     if (shading == vtkPhongGouraudMapper::AUTO)
     {
@@ -304,6 +317,13 @@ void vtkPhongGouraudHelper::SetLightingShaderParameters(
   bind("radiometryMaterialOfCell", this->MaterialOfCellBuffer);
   bind("radiometryColorSteps", this->StepBuffer);
   bind("radiometryCellColors", this->CellColorBuffer);
+  bind("radiometryVisibility", this->VisibilityBuffer);
+  if (program->IsUniformUsed("visibilityTexels"))
+  {
+    const int groups = static_cast<int>((this->VisibilityKeys.size() + 3) / 4);
+    const int texels[2] = { groups, this->VisibilityOfBack ? 2 * groups : groups };
+    program->SetUniform2i("visibilityTexels", texels);
+  }
   if (program->IsUniformUsed("numberOfColorSteps"))
   {
     program->SetUniformi("numberOfColorSteps", static_cast<int>(this->Steps.GetNumberOfSteps()));
@@ -443,6 +463,7 @@ void vtkPhongGouraudHelper::RenderPieceStart(vtkRenderer* ren, vtkActor* act)
   if (!ren->GetSelector())
   {
     this->CollectLights(ren, act); // its coordinates are those of the buffers
+    this->AssignVisibility();
     this->LightBuffer.Upload(ren, std::vector<float>(this->Lights.Texels));
     for (FloatBuffer* buffer : this->Buffers())
     {

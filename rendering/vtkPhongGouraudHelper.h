@@ -79,10 +79,11 @@ private:
   /// The blocks in the order in which they are drawn.
   std::vector<vtkradiometry::DrawnBlock*> Blocks() const;
 
-  std::array<FloatBuffer*, 7> Buffers()
+  std::array<FloatBuffer*, 8> Buffers()
   {
     return { { &this->LightBuffer, &this->FrameBuffer, &this->FieldBuffer, &this->MaterialBuffer,
-      &this->MaterialOfCellBuffer, &this->StepBuffer, &this->CellColorBuffer } };
+      &this->MaterialOfCellBuffer, &this->StepBuffer, &this->CellColorBuffer,
+      &this->VisibilityBuffer } };
   }
 
   vtkPhongGouraudMapper* Mapper() const;
@@ -115,6 +116,26 @@ private:
     bool AreColors = false; // nothing between two points can be mapped: their colours are mixed
   };
   BlockScalars FindScalars(vtkPolyData* block);
+  /// LightVisibility of a block: for each of VisibilityKeys its component there, or -1.
+  struct BlockVisibility
+  {
+    vtkDataArray* Front = nullptr;
+    vtkDataArray* Back = nullptr;
+    bool OfCells = false;
+    std::vector<int> Components;
+  };
+  BlockVisibility FindVisibility(vtkPolyData* block);
+  void PrepareVisibility();
+  void AppendVisibility(vtkPolyData* block, bool newPoints);
+  void BuildVisibility(vtkRenderer* ren, vtkActor* act);
+  void AssignVisibility();
+  /// Some light of this frame has shares.
+  bool UsesVisibility() const { return this->LightsKnown; }
+  void NeedVisibility(vtkradiometry::ShaderFeatures& needs) const;
+  /// Field mode with highlights: is there a block whose cells have a material of their own?
+  bool HighlightsOfCells();
+  /// Field mode with highlights: is there a material that has some?
+  bool Shines(vtkActor* act);
   void PrepareFalseColor();
   void AppendScalars(vtkPolyData* block, bool newPoints);
   void BuildFalseColor(vtkRenderer* ren, vtkActor* act);
@@ -127,11 +148,19 @@ private:
   bool FieldOfCells = false;
   bool FieldOfPoints = false;
   bool FieldOfBack = false; // some block has a field for its back
+  bool MaterialsOfHighlights = false; // field mode: some block has materials
   bool SpecularMaterials = false; // some cell's material has a highlight
   bool EmittingMaterials = false; // ... gives light
   bool ConstantInCells = false; // one normal at all points of each cell
   // Of blocks in whose points others may share: the field they were drawn with.
   std::map<vtkDataArray*, vtkDataArray*> FieldOfShared;
+
+  // Known shadows
+  std::vector<vtkradiometry::LightKey> VisibilityKeys; // the columns of shares
+  bool VisibilityOfCells = false;
+  bool VisibilityOfBack = false;
+  int VisibilityGroupsOfPoints = 0; // four lights each
+  bool LightsKnown = false;         // a light of this frame has shares
 
   // False colour
   bool ScalarsOfCells = false;
@@ -150,6 +179,7 @@ private:
   FloatBuffer MaterialOfCellBuffer; // which one a triangle has
   FloatBuffer StepBuffer;           // of the colour map
   FloatBuffer CellColorBuffer;      // false colours of triangles
+  FloatBuffer VisibilityBuffer;     // shares of lights at triangles
 
   vtkPhongGouraudHelper(const vtkPhongGouraudHelper&) = delete;
   void operator=(const vtkPhongGouraudHelper&) = delete;

@@ -38,6 +38,8 @@ void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)
     this->SetFieldArrayName(own->FieldArrayName.c_str());
     this->SetFieldAssociation(own->FieldAssociation);
     this->SetFieldScale(own->FieldScale);
+    this->SetHighlights(own->Highlights);
+    this->SetUseLightVisibility(own->UseLightVisibility);
     this->SetEveryEffect(own->EveryEffect);
   }
   this->Superclass::ShallowCopy(other);
@@ -87,6 +89,26 @@ void vtkPhongGouraudMapper::SetFieldAssociation(int association)
   }
 }
 
+void vtkPhongGouraudMapper::SetHighlights(bool on)
+{
+  if (this->Highlights != on)
+  {
+    this->Highlights = on;
+    this->BufferTime.Modified();
+    this->Modified();
+  }
+}
+
+void vtkPhongGouraudMapper::SetUseLightVisibility(bool on)
+{
+  if (this->UseLightVisibility != on)
+  {
+    this->UseLightVisibility = on;
+    this->BufferTime.Modified();
+    this->Modified();
+  }
+}
+
 void vtkPhongGouraudMapper::SetLightData(vtkPolyData* lights)
 {
   if (this->LightData != lights)
@@ -118,6 +140,8 @@ void vtkPhongGouraudMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FieldArrayName: " << this->FieldArrayName << "\n";
   os << indent << "FieldAssociation: " << this->FieldAssociation << "\n";
   os << indent << "FieldScale: " << this->FieldScale << "\n";
+  os << indent << "Highlights: " << this->Highlights << "\n";
+  os << indent << "UseLightVisibility: " << this->UseLightVisibility << "\n";
   os << indent << "EveryEffect: " << this->EveryEffect << "\n";
   os << indent << "LightData: " << this->LightData.Get() << "\n";
   os << indent << "ShaderFeatures: " << this->ShaderFeatureText << "\n";

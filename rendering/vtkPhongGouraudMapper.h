@@ -209,6 +209,32 @@ public:
 
   ///@{
   /**
+   * On (default): where a surface that shows its field (FieldMode On) is specular, the lights'
+   * highlights are added pixel by pixel, by the chosen ReflectionModel; the material is the surface's
+   * SpecularReflectance and Shininess (with Back... of each) or else the actor's property. Off: the
+   * field alone.
+   */
+  void SetHighlights(bool on);
+  vtkGetMacro(Highlights, bool);
+  vtkBooleanMacro(Highlights, bool);
+  ///@}
+
+  ///@{
+  /**
+   * On (default): where the surface knows which share of a light arrives (the arrays LightVisibility
+   * and LightVisibilityBack of the simulating filters, at cells or points, with the field data
+   * LightVisibilityLights), the light and its highlights are drawn with that share: with shadows.
+   * A light that moved since then is drawn without. Shares of cells are constant over a cell, of
+   * points interpolated (at most 16 lights, 8 with backs). Gouraud is then drawn as Phong. Off: no
+   * shadows.
+   */
+  void SetUseLightVisibility(bool on);
+  vtkGetMacro(UseLightVisibility, bool);
+  vtkBooleanMacro(UseLightVisibility, bool);
+  ///@}
+
+  ///@{
+  /**
    * Multiplies the field. Default 1; any finite value. 1/pi shows a diffuse radiosity as radiance.
    */
   vtkSetMacro(FieldScale, double);
@@ -278,6 +304,8 @@ protected:
   std::string FieldArrayName;
   int FieldAssociation = -1;
   double FieldScale = 1.0;
+  bool Highlights = true;
+  bool UseLightVisibility = true;
   bool EveryEffect = false;
   vtkSmartPointer<vtkPolyData> LightData;
 

@@ -159,14 +159,46 @@ private:
   std::array<Side, 2> Sides;
 };
 
+bool HasHighlights(vtkPolyData* block)
+{
+  return SurfaceArray(block, names::SpecularReflectance) ||
+    SurfaceArray(block, std::string(names::BackPrefix) + names::SpecularReflectance);
+}
+
 } // namespace
+
+bool vtkPhongGouraudHelper::HighlightsOfCells()
+{
+  return this->MaterialsOfHighlights && this->MaterialBuffer.Texture != nullptr;
+}
+
+bool vtkPhongGouraudHelper::Shines(vtkActor* act)
+{
+  if (this->Mapper()->FieldMode != vtkPhongGouraudMapper::FIELD_ON || !this->Mapper()->Highlights)
+  {
+    return false;
+  }
+  const auto shines = [](vtkProperty* p) {
+    const double* c = p ? p->GetSpecularColor() : nullptr;
+    return c && p->GetSpecular() > 0.0 && (c[0] != 0.0 || c[1] != 0.0 || c[2] != 0.0);
+  };
+  return this->HighlightsOfCells()
+    ? this->SpecularMaterials
+    : shines(act->GetProperty()) || shines(act->GetBackfaceProperty());
+}
 
 void vtkPhongGouraudHelper::BuildMaterials(vtkRenderer* ren, vtkActor* act)
 {
   this->SpecularMaterials = false;
   this->EmittingMaterials = false;
   const std::vector<vtkradiometry::DrawnBlock*> blocks = this->Blocks();
-  if (this->Mapper()->FieldMode != vtkPhongGouraudMapper::FIELD_MATERIALS || blocks.empty() ||
+  this->MaterialsOfHighlights = this->Mapper()->FieldMode == vtkPhongGouraudMapper::FIELD_ON &&
+    this->Mapper()->Highlights &&
+    std::any_of(blocks.begin(), blocks.end(), [](const vtkradiometry::DrawnBlock* drawn) {
+      return HasHighlights(vtkradiometry::DataOf(*drawn));
+    });
+  const bool lit = this->Mapper()->FieldMode == vtkPhongGouraudMapper::FIELD_MATERIALS;
+  if ((!lit && !this->MaterialsOfHighlights) || blocks.empty() ||
     act->GetProperty()->GetRepresentation() != VTK_SURFACE)
   {
     this->MaterialBuffer.Free();
@@ -189,12 +221,12 @@ void vtkPhongGouraudHelper::BuildMaterials(vtkRenderer* ren, vtkActor* act)
       if (found.second)
       {
         texels.insert(texels.end(), material.begin(), material.end());
-        const auto lit = [&material](int first) {
+        const auto reflects = [&material](int first) {
           return material[first] != 0.0f || material[first + 1] != 0.0f ||
             material[first + 2] != 0.0f;
         };
-        this->SpecularMaterials = this->SpecularMaterials || lit(4) || lit(16);
-        this->EmittingMaterials = this->EmittingMaterials || lit(8) || lit(20);
+        this->SpecularMaterials = this->SpecularMaterials || reflects(4) || reflects(16);
+        this->EmittingMaterials = this->EmittingMaterials || reflects(8) || reflects(20);
       }
       ofTriangle[4 * (begin + i)] = static_cast<float>(found.first->second);
     }

@@ -101,8 +101,9 @@ LightSums SumLights(const LightingModel& model, const std::vector<DisplayLight>&
   LightSums sums;
   const Vec3 N = Direction(sample.Normal);
   const Vec3 V = Direction(model.LocalViewer ? sample.Eye - sample.Point : sample.Viewer);
-  for (const DisplayLight& light : lights)
+  for (std::size_t k = 0; k < lights.size(); ++k)
   {
+    const DisplayLight& light = lights[k];
     if (!light.Enabled)
     {
       continue;
@@ -116,8 +117,9 @@ LightSums SumLights(const LightingModel& model, const std::vector<DisplayLight>&
       continue;
     }
     const Vec3 L = toLight / r;
-    const double factor = LightFactor(light, r, -L);
+    double factor = LightFactor(light, r, -L);
     sums.Ambient += factor * light.Ambient;
+    factor *= sample.Visibility ? sample.Visibility[k] : 1.0;
     const double nl = Dot(N, L);
     if (!(nl > 0.0) || factor == 0.0)
     {

@@ -71,6 +71,9 @@ struct ShadingSample
   Vec3 Eye;                // position of the viewer (LocalViewer)
   Vec3 Viewer{ 0., 0., 1. }; // direction toward a viewer infinitely far away (not LocalViewer)
   bool FrontFacing = true; // the viewer is on the front side
+  /// What of each light arrives here, a share in [0, 1] a light, in their order (the array
+  /// LightVisibility); null: all of it. Light that counts as ambient is not hidden.
+  const double* Visibility = nullptr;
 };
 
 /// The sums over the lights that a material multiplies; they are what Gouraud shading interpolates.

@@ -55,15 +55,17 @@
   material += frontFacing ? 0 : 3;
 //@end
   vec4 materialDiffuse = texelFetch(radiometryMaterials, material);
+//@if Lit
   diffuseColor = materialDiffuse.rgb;
   ambientColor = ambientIntensity * materialDiffuse.rgb;
+//@end
 //@if Specular
   specularColor = texelFetch(radiometryMaterials, material + 1).rgb;
   specularPower = materialDiffuse.a;
 //@end
 //@end
 //@if ShowField
-  gl_FragData[0] = vec4(field, opacity);
+  vec3 color = field;
 //@end
 //@if FalseColor
 //@if ScalarsOfPoints
@@ -93,6 +95,7 @@
   vec3 color = ambientColor * globalAmbient;
 //@else
   vec3 color = vec3(0.0);
+//@end
 //@end
 //@if Lights
 //@if PerVertex
@@ -125,6 +128,32 @@
   vec3 V = vec3(0.0, 0.0, 1.0);
 //@end
 //@end
+//@if Visibility
+//@if VisibilityOfCells
+  visibilityFirst = visibilityTexels.y * (gl_PrimitiveID + PrimitiveIDOffset);
+//@if VisibilityOfBack
+  visibilityFirst += frontFacing ? 0 : visibilityTexels.x;
+//@end
+//@end
+//@if VisibilityOfPoints
+  visibilityOfPoint[0] = visibility0VSOutput;
+//@if VisibilityOfBack
+  visibilityOfPoint[0] = frontFacing ? visibility0VSOutput : visibilityBack0VSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints2
+  visibilityOfPoint[1] = visibility1VSOutput;
+//@if VisibilityOfBack
+  visibilityOfPoint[1] = frontFacing ? visibility1VSOutput : visibilityBack1VSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints3
+  visibilityOfPoint[2] = visibility2VSOutput;
+//@end
+//@if VisibilityOfPoints4
+  visibilityOfPoint[3] = visibility3VSOutput;
+//@end
+//@end
   LightSums sums = sumLights(N
 //@if Finite
     , P
@@ -133,7 +162,9 @@
     , V, specularPower
 //@end
     );
+//@if Lit
   color += diffuseColor * sums.diffuse;
+//@end
 //@if LightAmbient
   color += ambientColor * sums.ambient;
 //@end
@@ -152,6 +183,10 @@
   color += emission;
 //@end
 //@end
+//@if Lit
+  gl_FragData[0] = vec4(color, opacity);
+//@end
+//@if ShowField
   gl_FragData[0] = vec4(color, opacity);
 //@end
 //@if Edges

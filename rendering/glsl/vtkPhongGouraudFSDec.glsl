@@ -26,6 +26,27 @@ in vec3 fieldVSOutput;
 in vec3 fieldBackVSOutput;
 //@end
 //@end
+//@if VisibilityOfCells
+uniform ivec2 visibilityTexels; // of a side, of a triangle
+//@end
+//@if VisibilityOfPoints
+in vec4 visibility0VSOutput;
+//@if VisibilityOfBack
+in vec4 visibilityBack0VSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints2
+in vec4 visibility1VSOutput;
+//@if VisibilityOfBack
+in vec4 visibilityBack1VSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints3
+in vec4 visibility2VSOutput;
+//@end
+//@if VisibilityOfPoints4
+in vec4 visibility3VSOutput;
+//@end
 //@if FalseColor
 //@if ColorsOfCells
 // For each triangle its colour; alpha -1: that of its points, -2: the property's.

@@ -1,5 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // //VTK::Light::Impl of that geometry shader, once for each vertex i.
+//@if VisibilityOfPoints
+  visibility0GSOutput = visibility0VSOutput[i];
+//@if VisibilityOfBack
+  visibilityBack0GSOutput = visibilityBack0VSOutput[i];
+//@end
+//@end
+//@if VisibilityOfPoints2
+  visibility1GSOutput = visibility1VSOutput[i];
+//@if VisibilityOfBack
+  visibilityBack1GSOutput = visibilityBack1VSOutput[i];
+//@end
+//@end
+//@if VisibilityOfPoints3
+  visibility2GSOutput = visibility2VSOutput[i];
+//@end
+//@if VisibilityOfPoints4
+  visibility3GSOutput = visibility3VSOutput[i];
+//@end
 //@if ColorsOfPoints
   colorGSOutput = colorVSOutput[i];
 //@end

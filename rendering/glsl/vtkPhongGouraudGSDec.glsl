@@ -1,5 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declarations of the geometry shader that VTK inserts for edges: what it must hand through.
+//@if VisibilityOfPoints
+in vec4 visibility0VSOutput[];
+out vec4 visibility0GSOutput;
+//@if VisibilityOfBack
+in vec4 visibilityBack0VSOutput[];
+out vec4 visibilityBack0GSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints2
+in vec4 visibility1VSOutput[];
+out vec4 visibility1GSOutput;
+//@if VisibilityOfBack
+in vec4 visibilityBack1VSOutput[];
+out vec4 visibilityBack1GSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints3
+in vec4 visibility2VSOutput[];
+out vec4 visibility2GSOutput;
+//@end
+//@if VisibilityOfPoints4
+in vec4 visibility3VSOutput[];
+out vec4 visibility3GSOutput;
+//@end
 //@if ColorsOfPoints
 in vec4 colorVSOutput[];
 out vec4 colorGSOutput;

@@ -1,5 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // //VTK::Light::Impl of the vertex shader: Gouraud's sums over the lights at each vertex.
+//@if VisibilityOfPoints
+  visibility0VSOutput = radiometryVisibility0MC;
+//@if VisibilityOfBack
+  visibilityBack0VSOutput = radiometryVisibilityBack0MC;
+//@end
+//@end
+//@if VisibilityOfPoints2
+  visibility1VSOutput = radiometryVisibility1MC;
+//@if VisibilityOfBack
+  visibilityBack1VSOutput = radiometryVisibilityBack1MC;
+//@end
+//@end
+//@if VisibilityOfPoints3
+  visibility2VSOutput = radiometryVisibility2MC;
+//@end
+//@if VisibilityOfPoints4
+  visibility3VSOutput = radiometryVisibility3MC;
+//@end
 //@if ColorsOfPoints
   colorVSOutput = radiometryColorMC;
 //@end

@@ -1,5 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declarations of the vertex shader (//VTK::Light::Dec).
+//@if VisibilityOfPoints
+in vec4 radiometryVisibility0MC;
+out vec4 visibility0VSOutput;
+//@if VisibilityOfBack
+in vec4 radiometryVisibilityBack0MC;
+out vec4 visibilityBack0VSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints2
+in vec4 radiometryVisibility1MC;
+out vec4 visibility1VSOutput;
+//@if VisibilityOfBack
+in vec4 radiometryVisibilityBack1MC;
+out vec4 visibilityBack1VSOutput;
+//@end
+//@end
+//@if VisibilityOfPoints3
+in vec4 radiometryVisibility2MC;
+out vec4 visibility2VSOutput;
+//@end
+//@if VisibilityOfPoints4
+in vec4 radiometryVisibility3MC;
+out vec4 visibility3VSOutput;
+//@end
 //@if ColorsOfPoints
 in vec4 radiometryColorMC;
 out vec4 colorVSOutput;

@@ -74,6 +74,34 @@ float specularFactor(vec3 N, vec3 L, vec3 S, float nl, float shininess)
 }
 //@end
 
+//@if Visibility
+//@if VisibilityOfCells
+// For each triangle: front, then back: the shares of four lights a texel.
+uniform samplerBuffer radiometryVisibility;
+int visibilityFirst;
+//@end
+//@if VisibilityOfPoints
+vec4 visibilityOfPoint[4];
+//@end
+
+// What of a light arrives, as far as the simulation knows.
+float shareOfLight(int light)
+{
+  int column = int(texelFetch(radiometryLights, light).w);
+  float share = 1.0;
+  if (column >= 0)
+  {
+//@if VisibilityOfCells
+    share *= texelFetch(radiometryVisibility, visibilityFirst + column / 4)[column % 4];
+//@end
+//@if VisibilityOfPoints
+    share *= visibilityOfPoint[column / 4][column % 4];
+//@end
+  }
+  return share;
+}
+//@end
+
 // One light: L toward it, nl = N.L, factor its fall-off and cone. Of finite lights nl is scaled after
 // the product: at grazing light the rounding of a unit vector would show.
 void addLight(int light, vec3 L, float nl, float factor, vec3 N,
@@ -87,6 +115,9 @@ void addLight(int light, vec3 L, float nl, float factor, vec3 N,
 {
 //@if LightAmbient
   sums.ambient += factor * texelFetch(radiometryLights, light + 3).rgb;
+//@end
+//@if Visibility
+  factor *= shareOfLight(light);
 //@end
   vec3 color = factor * texelFetch(radiometryLights, light + 2).rgb;
   sums.diffuse += max(nl, 0.0) * color;
