@@ -252,9 +252,9 @@ void vtkPhongGouraudHelper::NeedVisibility(vtkradiometry::ShaderFeatures& needs)
   {
     needs.insert("VisibilityOfCells");
   }
-  if (this->VisibilityOfBack && needs.count("TwoSided"))
+  if (needs.count("TwoSided"))
   {
-    needs.insert("VisibilityOfBack");
+    needs.insert(this->VisibilityOfBack ? "VisibilityOfBack" : "VisibilityOfFront");
   }
   const char* groups[] = { "VisibilityOfPoints", "VisibilityOfPoints2", "VisibilityOfPoints3",
     "VisibilityOfPoints4" };

@@ -129,6 +129,9 @@
 //@end
 //@end
 //@if Visibility
+//@if VisibilityOfFront
+  visibilityKnown = frontFacing;
+//@end
 //@if VisibilityOfCells
   visibilityFirst = visibilityTexels.y * (gl_PrimitiveID + PrimitiveIDOffset);
 //@if VisibilityOfBack

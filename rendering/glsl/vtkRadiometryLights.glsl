@@ -83,12 +83,18 @@ int visibilityFirst;
 //@if VisibilityOfPoints
 vec4 visibilityOfPoint[4];
 //@end
+//@if VisibilityOfFront
+bool visibilityKnown; // on the side that is seen
+//@end
 
 // What of a light arrives, as far as the simulation knows.
 float shareOfLight(int light)
 {
   int column = int(texelFetch(radiometryLights, light).w);
   float share = 1.0;
+//@if VisibilityOfFront
+  column = visibilityKnown ? column : -1;
+//@end
   if (column >= 0)
   {
 //@if VisibilityOfCells

@@ -20,6 +20,7 @@ std::vector<ParityFeature> MakeFeatures()
   AddLightFeatures(add);
   AddMaterialFeatures(add);
   AddGeometryFeatures(add);
+  AddFieldFeatures(add);
   return features;
 }
 

@@ -30,5 +30,7 @@ radiometry::Vec3 ToFloat(const radiometry::Vec3& v);
 void AddLightFeatures(const AddFeature& add);
 void AddMaterialFeatures(const AddFeature& add);
 void AddGeometryFeatures(const AddFeature& add);
+/// Last: they need all lights and triangles.
+void AddFieldFeatures(const AddFeature& add);
 
 } // namespace parity

@@ -52,6 +52,29 @@ void SetColors(Scene& scene, Random& random, ParityColors colors, std::size_t co
   }
 }
 
+/// What of each light arrives, anything in [0, 1].
+void SetShares(Scene& scene, Random& random, ParityShares shares)
+{
+  NeedLight(scene, random);
+  if (shares == ParityShares::Points && scene.Lights.size() > 8)
+  {
+    return; // shares of points have room for no more
+  }
+  const auto values = [&] {
+    const std::size_t items =
+      shares == ParityShares::Cells ? scene.Triangles() : scene.Points.size();
+    std::vector<double> all(items * scene.Lights.size());
+    for (double& share : all)
+    {
+      share = random.Chance(0.3) ? (random.Chance(0.5) ? 0.0 : 1.0) : random.In(0.0, 1.0);
+    }
+    return all;
+  };
+  scene.Shares = shares;
+  scene.SharesFront = values();
+  scene.SharesBack = random.Chance(0.5) ? values() : std::vector<double>();
+}
+
 void SetMaterials(Scene& scene, Random& random)
 {
   SetColors(scene, random, ParityColors::Materials, 0, 0.0, 1.0);
@@ -177,6 +200,20 @@ void AddMaterialFeatures(const AddFeature& add)
     NeedLight(s, r);
     s.Alpha = r.In(0.1, 0.9);
   });
+}
+
+void AddFieldFeatures(const AddFeature& add)
+{
+  add("highlights on a field", 0.06, [](Scene& s, Random& r) {
+    NeedHighlight(s, r);
+    const bool cells = r.Chance(0.5);
+    SetColors(s, r, cells ? ParityColors::CellField : ParityColors::PointField,
+      cells ? s.Triangles() : s.Points.size(), 0.0, 1.0);
+  });
+  add("shadows of cells", 0.1,
+    [](Scene& s, Random& r) { SetShares(s, r, ParityShares::Cells); });
+  add("shadows of points", 0.1,
+    [](Scene& s, Random& r) { SetShares(s, r, ParityShares::Points); });
 }
 
 } // namespace parity

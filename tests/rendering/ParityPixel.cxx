@@ -171,6 +171,24 @@ DisplayMaterial MaterialOf(const ParityScene& scene, const Hit& hit, bool behind
   }
 }
 
+/// What of each light arrives at a hit; none: all.
+std::vector<double> SharesAt(const ParityScene& scene, const Hit& hit, bool behind)
+{
+  const std::size_t lights = scene.Lights.size();
+  const std::vector<double>& values = behind ? scene.SharesBack : scene.SharesFront;
+  std::vector<double> shares;
+  for (std::size_t k = 0; k < lights && scene.KnowsShadows() && !values.empty(); ++k)
+  {
+    double share = scene.Shares == ParityShares::Cells ? values[hit.Triangle * lights + k] : 0.0;
+    for (std::size_t i = 0; i < 3 && scene.Shares == ParityShares::Points; ++i)
+    {
+      share += hit.Weights[i] * values[(3 * hit.Triangle + i) * lights + k];
+    }
+    shares.push_back(share);
+  }
+  return shares;
+}
+
 struct Shaded
 {
   Rgb Color;
@@ -206,13 +224,6 @@ Shaded ShadeHit(const ParityScene& scene, const Ray& ray, const Hit& hit,
 {
   const std::size_t first = 3 * hit.Triangle;
   Shaded result;
-  if (scene.Colors == ParityColors::CellField || scene.Colors == ParityColors::PointField)
-  {
-    result.Color = scene.FieldScale *
-      (scene.Colors == ParityColors::CellField ? scene.Values[hit.Triangle]
-                                               : Interpolated(scene.Values, hit));
-    return result;
-  }
   LightingModel model = scene.Model;
   model.LocalViewer = model.LocalViewer && !scene.Parallel;
   ShadingSample sample;
@@ -222,7 +233,17 @@ Shaded ShadeHit(const ParityScene& scene, const Ray& ray, const Hit& hit,
   const Vec3 faceNormal = Normalized(AreaNormal2(object));
   sample.FrontFacing = Dot(TransformNormal(scene.Transform, faceNormal), ray.Direction) < 0.0;
   const bool behind = model.TwoSided && !sample.FrontFacing;
-  const DisplayMaterial material = MaterialOf(scene, hit, behind);
+  DisplayMaterial material = MaterialOf(scene, hit, behind);
+  if (scene.ShowsField())
+  {
+    // Highlights on the field, and no other light.
+    material.Ambient = material.Diffuse = Rgb();
+    material.Emission = scene.FieldScale *
+      (scene.Colors == ParityColors::CellField ? scene.Values[hit.Triangle]
+                                               : Interpolated(scene.Values, hit));
+  }
+  const std::vector<double> shares = SharesAt(scene, hit, behind);
+  sample.Visibility = shares.empty() ? nullptr : shares.data();
   const auto addSample = [&](std::vector<ShadingSample>& to, const Vec3& point, Vec3 normal,
                            double longest) {
     normal += longest * nudge.Normal;

@@ -43,6 +43,10 @@ int ParityScene::ShadingInEffect() const
       std::any_of(this->CellBack.begin(), this->CellBack.end(), shines) ||
       (this->HasBack && this->CellBack.empty() && shines(this->Back));
   }
+  if (this->Shading == 1 && (this->ShowsField() || this->KnowsShadows()))
+  {
+    return 2;
+  }
   return this->Shading == 1 && (this->Normals.empty() || highlights) ? 2 : this->Shading;
 }
 

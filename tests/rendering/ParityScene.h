@@ -55,8 +55,16 @@ enum class ParityColors
   CellReflectance,    // FIELD_REFLECTANCE
   PointReflectance,
   Materials,          // the surface arrays
-  CellField,          // FIELD_ON: no light
+  CellField,          // FIELD_ON: highlights alone
   PointField
+};
+
+/// Where the surface knows what of each light arrives.
+enum class ParityShares
+{
+  None,
+  Cells,
+  Points
 };
 
 /// A scene that can be drawn by vtkPhongGouraudMapper and evaluated by radiometry/shading.
@@ -86,6 +94,9 @@ struct ParityScene
   double AmbientShare = 0.0; // the property's ambient, where the colour is not the property's
   std::vector<radiometry::Rgb> Values; // one a block, cell or point
   double FieldScale = 1.0;
+  ParityShares Shares = ParityShares::None;
+  std::vector<double> SharesFront; // cells or points x lights; none where Shares is None
+  std::vector<double> SharesBack;  // none: no LightVisibilityBack
   std::vector<radiometry::DisplayMaterial> CellFront; // Materials
   std::vector<radiometry::DisplayMaterial> CellBack;  // none: no Back... arrays
   std::vector<bool> CellTwoSided;                     // none: no array
@@ -113,6 +124,11 @@ struct ParityScene
   /// Flat, Gouraud or Phong as the mapper's documentation says: Gouraud needs point normals and one
   /// exponent for the whole surface.
   int ShadingInEffect() const;
+  bool ShowsField() const
+  {
+    return this->Colors == ParityColors::CellField || this->Colors == ParityColors::PointField;
+  }
+  bool KnowsShadows() const { return this->Shares != ParityShares::None && !this->RendererLights; }
 };
 
 /// One feature of the model: what it adds to a scene.

@@ -8,6 +8,7 @@
 #include "vtkCellData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkLight.h"
@@ -199,6 +200,44 @@ void AddColors(vtkPolyData* block, const ParityScene& scene, std::size_t first, 
   }
 }
 
+/// What of each light arrives at the triangles [first, last), and which lights those are.
+void AddShares(vtkPolyData* block, const ParityScene& scene, std::size_t first, std::size_t last)
+{
+  const std::size_t lights = scene.Lights.size();
+  const bool ofPoints = scene.Shares == ParityShares::Points;
+  vtkDataSetAttributes* data = block->GetCellData();
+  if (ofPoints)
+  {
+    data = block->GetPointData();
+  }
+  const auto add = [&](const std::string& name, const std::vector<double>& values) {
+    const auto array = AddArray<vtkDoubleArray>(data, name.c_str(), static_cast<int>(lights));
+    const std::size_t each = ofPoints ? 3 : 1;
+    for (std::size_t i = each * first; i < each * last; ++i)
+    {
+      array->InsertNextTuple(&values[i * lights]);
+    }
+  };
+  add(names::LightVisibility, scene.SharesFront);
+  if (!scene.SharesBack.empty())
+  {
+    add(std::string(names::LightVisibility) + names::BackSuffix, scene.SharesBack);
+  }
+  vtkNew<vtkDoubleArray> keys;
+  keys->SetName(names::LightVisibilityLights);
+  keys->SetNumberOfComponents(7);
+  for (const ParityLight& given : scene.Lights)
+  {
+    const double* p = given.Light.Position.data();
+    const Vec3& d = given.Light.SpotDirection;
+    const bool spot = given.Light.CosCutoff > -1.0;
+    const double finite[7] = { spot ? 1.0 : 0.0, p[0], p[1], p[2], d.x, d.y, d.z };
+    const double directional[7] = { 2.0, p[0], p[1], p[2], -p[0], -p[1], -p[2] };
+    keys->InsertNextTuple(p[3] == 0.0 ? directional : finite);
+  }
+  block->GetFieldData()->AddArray(keys);
+}
+
 vtkSmartPointer<vtkPolyData> MakeBlock(const ParityScene& scene, std::size_t first, std::size_t last)
 {
   vtkNew<vtkPoints> points;
@@ -228,6 +267,10 @@ vtkSmartPointer<vtkPolyData> MakeBlock(const ParityScene& scene, std::size_t fir
     block->GetPointData()->SetNormals(normals);
   }
   AddColors(block, scene, first, last);
+  if (scene.Shares != ParityShares::None)
+  {
+    AddShares(block, scene, first, last);
+  }
   return block;
 }
 
