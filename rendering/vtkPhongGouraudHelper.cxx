@@ -160,6 +160,7 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
       needs.insert(feature);
     }
     const bool lights = Has(needs, "Lights");
+    need(lit && lights, "Diffuse");
     const bool every = mapper->EveryEffect && lights;
     if (every)
     {

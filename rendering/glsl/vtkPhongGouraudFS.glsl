@@ -165,7 +165,7 @@
     , V, specularPower
 //@end
     );
-//@if Lit
+//@if Diffuse
   color += diffuseColor * sums.diffuse;
 //@end
 //@if LightAmbient

@@ -17,7 +17,9 @@ uniform ivec2 spotRange;
 
 struct LightSums
 {
+//@if Diffuse
   vec3 diffuse;
+//@end
 //@if LightAmbient
   vec3 ambient;
 //@end
@@ -126,7 +128,9 @@ void addLight(int light, vec3 L, float nl, float factor, vec3 N,
   factor *= shareOfLight(light);
 //@end
   vec3 color = factor * texelFetch(radiometryLights, light + 2).rgb;
+//@if Diffuse
   sums.diffuse += max(nl, 0.0) * color;
+//@end
 //@if BothSides
   sums.diffuseBack += max(-nl, 0.0) * color;
 //@end
@@ -203,7 +207,9 @@ LightSums sumLights(vec3 N
   )
 {
   LightSums sums;
+//@if Diffuse
   sums.diffuse = vec3(0.0);
+//@end
 //@if LightAmbient
   sums.ambient = vec3(0.0);
 //@end
