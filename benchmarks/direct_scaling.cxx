@@ -15,15 +15,13 @@
 ///
 ///   direct_scaling [greatest cells=1e7] [greatest lights=1e4] [threads=0: all] [repeats=3]
 
+#include "benchmarks/ChildProcess.h"
 #include "benchmarks/Provenance.h"
 #include "radiometry/irradiance/DirectIrradiance.h"
 #include "radiometry/irradiance/IrradianceSimulation.h"
 #include "tests/core/TestScenes.h"
 
 #include <nlohmann/json.hpp>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -53,42 +51,6 @@ double Now()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double Resident(const char* which)
-{
-  return 1024.0 * std::atof(benchmark::SystemField("/proc/self/status", which).c_str());
-}
-
-/// Runs `body` in a child of its own and returns what it answers.
-json Apart(const std::function<json()>& body)
-{
-  int ends[2];
-  if (pipe(ends) != 0)
-  {
-    throw std::runtime_error("no pipe");
-  }
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    close(ends[0]);
-    const std::string text = body().dump();
-    const bool written =
-      write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    close(ends[1]);
-    _exit(written ? 0 : 1);
-  }
-  close(ends[1]);
-  std::string text;
-  char buffer[4096];
-  for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
-  {
-    text.append(buffer, static_cast<std::size_t>(n));
-  }
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status == 0 && !text.empty() ? json::parse(text) : json();
-}
-
 struct Setting
 {
   int Threads = 0;
@@ -101,7 +63,7 @@ json Measure(const std::function<test::Mesh()>& make, std::size_t cells,
   const std::function<void(Scene&)>& light, const Setting& setting)
 {
   json row;
-  const double before = Resident("VmRSS");
+  const double before = benchmark::Resident("VmRSS");
   test::Mesh mesh = make();
   Scene scene = mesh.ToScene();
   mesh = {};
@@ -111,7 +73,7 @@ json Measure(const std::function<test::Mesh()>& make, std::size_t cells,
   {
     patches.resize(cells);
   }
-  const double input = Resident("VmRSS") - before;
+  const double input = benchmark::Resident("VmRSS") - before;
   DirectOptions options;
   options.Threads = setting.Threads;
   double building = 1e300;
@@ -141,7 +103,7 @@ json Measure(const std::function<test::Mesh()>& make, std::size_t cells,
     value += area * result.Irradiance[i];
     error += area * result.Error[i];
   }
-  const double peak = Resident("VmHWM") - before;
+  const double peak = benchmark::Resident("VmHWM") - before;
   const auto n = static_cast<double>(patches.size());
   row["cells"] = patches.size();
   row["triangles"] = scene.Triangles.size();
@@ -193,7 +155,7 @@ json OverCells(double greatest, const Setting& setting)
       mesh.AddSphere({ 0, 0, 1 }, 0.5, static_cast<int>(std::sqrt(0.125 * wanted)), false);
       return mesh;
     };
-    rows.push_back(Apart([&] {
+    rows.push_back(benchmark::Apart([&] {
       return Measure(
         make, 0,
         [](Scene& scene) {
@@ -243,7 +205,7 @@ json OverLights(double greatest, bool plain, const Setting& setting)
       }
       return mesh;
     };
-    rows.push_back(Apart([&] {
+    rows.push_back(benchmark::Apart([&] {
       return Measure(
         make, 2048,
         [&](Scene& scene) {

@@ -13,15 +13,13 @@
 ///
 ///   radiosity_scaling [greatest=1e6] [threads=0: all] [limit=60] [operators=DHM]
 
+#include "benchmarks/ChildProcess.h"
 #include "benchmarks/FurnishedScene.h"
 #include "benchmarks/Provenance.h"
 #include "radiometry/formfactor/DenseOperator.h"
 #include "radiometry/formfactor/HierarchicalOperator.h"
 #include "radiometry/formfactor/MonteCarloOperator.h"
 #include "radiometry/solver/RadiositySolver.h"
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <functional>
@@ -45,50 +43,6 @@ double Now()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double Resident(const char* which)
-{
-  return 1024.0 * std::atof(benchmark::SystemField("/proc/self/status", which).c_str());
-}
-
-/// Runs `body` in a child of its own and returns what it answers.
-json Apart(const std::function<json()>& body)
-{
-  int ends[2];
-  if (pipe(ends) != 0)
-  {
-    throw std::runtime_error("no pipe");
-  }
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    close(ends[0]);
-    std::string text;
-    try
-    {
-      text = body().dump();
-    }
-    catch (const std::exception& error)
-    {
-      text = json{ { "failed", error.what() } }.dump();
-    }
-    const bool written =
-      write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    close(ends[1]);
-    _exit(written ? 0 : 1);
-  }
-  close(ends[1]);
-  std::string text;
-  char buffer[4096];
-  for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
-  {
-    text.append(buffer, static_cast<std::size_t>(n));
-  }
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status == 0 && !text.empty() ? json::parse(text) : json{ { "failed", "the process ended" } };
-}
-
 std::unique_ptr<FormFactorOperator> Build(char kind, const Scene& scene,
   const OcclusionScene& occluders, const ElementSet& elements, const ExchangeOptions& options)
 {
@@ -105,7 +59,7 @@ std::unique_ptr<FormFactorOperator> Build(char kind, const Scene& scene,
 
 json Measure(char kind, std::size_t wanted, int threads)
 {
-  const double empty = Resident("VmRSS");
+  const double empty = benchmark::Resident("VmRSS");
   Scene scene = benchmark::FurnishedScene(wanted).ToScene();
   ExchangeOptions options;
   options.RelativeTolerance = Tolerance;
@@ -117,7 +71,7 @@ json Measure(char kind, std::size_t wanted, int threads)
   const double occlusion = Now();
   const auto F = Build(kind, scene, occluders, elements, options);
   const double built = Now();
-  const double afterBuild = Resident("VmHWM") - empty;
+  const double afterBuild = benchmark::Resident("VmHWM") - empty;
 
   const std::size_t n = F->Size();
   std::vector<double> reflectance(n);
@@ -158,7 +112,7 @@ json Measure(char kind, std::size_t wanted, int threads)
   row["iterations"] = solved.Iterations;
   row["operatorBytes"] = F->MemoryBytes();
   row["buildBytes"] = afterBuild;
-  row["bytes"] = Resident("VmHWM") - empty;
+  row["bytes"] = benchmark::Resident("VmHWM") - empty;
   row["samples"] = F->Samples();
   row["absorbed"] = power;
   row["description"] = F->Description();
@@ -197,7 +151,7 @@ json OverSizes(char kind, double greatest, int threads, double limit)
       std::cerr << kind << ' ' << wanted << ": left out, some " << before[1] * growth << " s\n";
       break;
     }
-    rows.push_back(Apart(
+    rows.push_back(benchmark::Apart(
       [&] { return Measure(kind, static_cast<std::size_t>(std::lround(wanted)), threads); }));
     std::cerr << kind << ' ' << rows.back().dump() << '\n';
     if (rows.back().contains("failed"))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/ClosureCorrection.h"
 
+#include "radiometry/formfactor/ConjugateGradients.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,53 +11,24 @@ namespace radiometry
 namespace
 {
 
-/// Solves (diag(rows) + S) x = right over the closed rows, preconditioned by the diagonal.
+/// Solves (diag(rows) + S) x = right over the closed rows.
 std::vector<double> SolveCorrection(const SymmetricProduct& multiply,
   const std::vector<double>& rows, const std::vector<std::uint8_t>& closed,
   const std::vector<double>& right)
 {
-  const std::size_t n = rows.size();
-  std::vector<double> x(n, 0.0), r = right, z(n), p(n), product(n);
-  double rz = 0.0;
-  const auto precondition = [&](std::size_t i) {
-    z[i] = closed[i] && rows[i] > 0.0 ? r[i] / rows[i] : 0.0;
-    return r[i] * z[i];
+  std::vector<double> diagonal = rows;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    diagonal[i] = closed[i] ? rows[i] : 0.0;
+  }
+  const auto product = [&](const std::vector<double>& p, std::vector<double>& out) {
+    multiply(p.data(), out.data());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      out[i] = closed[i] ? out[i] + rows[i] * p[i] : 0.0;
+    }
   };
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    rz += precondition(i);
-    p[i] = z[i];
-  }
-  const double goal = 1e-28 * rz;
-  for (int iteration = 0; iteration < 100 && rz > goal; ++iteration)
-  {
-    multiply(p.data(), product.data());
-    double pq = 0.0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      product[i] = closed[i] ? product[i] + rows[i] * p[i] : 0.0;
-      pq += p[i] * product[i];
-    }
-    if (!(pq > 1e-300))
-    {
-      break;
-    }
-    const double alpha = rz / pq;
-    double next = 0.0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      x[i] += alpha * p[i];
-      r[i] -= alpha * product[i];
-      next += precondition(i);
-    }
-    const double beta = next / rz;
-    rz = next;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      p[i] = z[i] + beta * p[i];
-    }
-  }
-  return x;
+  return ConjugateGradients(product, diagonal, right, 1e-28, 100);
 }
 
 } // namespace

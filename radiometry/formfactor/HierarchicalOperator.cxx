@@ -4,6 +4,7 @@
 #include "radiometry/formfactor/ClusterLinks.h"
 #include "radiometry/formfactor/ClusterNetwork.h"
 #include "radiometry/formfactor/ClusterProbes.h"
+#include "radiometry/formfactor/ConjugateGradients.h"
 #include "radiometry/formfactor/CoveredElements.h"
 #include "radiometry/irradiance/ClosedSurfaces.h"
 #include "radiometry/scene/Collective.h"
@@ -134,50 +135,20 @@ void HierarchicalOperator::Internals::Build(const OcclusionScene& occluders,
 std::vector<double> HierarchicalOperator::Internals::ScaleStep(
   const std::vector<std::uint8_t>& fixed, double goal) const
 {
-  const std::size_t n = this->N;
-  std::vector<double> x(n, 0.0), r(n), z(n), p(n), product(n);
-  double rz = 0.0;
-  const auto precondition = [&](std::size_t i) {
-    const double row = this->RowSums[i] * this->Areas[i];
-    z[i] = fixed[i] == 1 && row > 0.0 ? r[i] / row : 0.0;
-    return r[i] * z[i];
+  std::vector<double> diagonal(this->N, 0.0), right(this->N, 0.0);
+  for (std::size_t i = 0; i < this->N; ++i)
+  {
+    diagonal[i] = fixed[i] == 1 ? this->RowSums[i] * this->Areas[i] : 0.0;
+    right[i] = fixed[i] == 1 ? this->Areas[i] * this->Missing(i) : 0.0;
+  }
+  const auto product = [&](const std::vector<double>& p, std::vector<double>& out) {
+    this->Network.Multiply(this->Scale, p.data(), out.data(), 1);
+    for (std::size_t i = 0; i < this->N; ++i)
+    {
+      out[i] = fixed[i] == 1 ? this->Areas[i] * (out[i] + this->RowSums[i] * p[i]) : 0.0;
+    }
   };
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    r[i] = fixed[i] == 1 ? this->Areas[i] * this->Missing(i) : 0.0;
-    rz += precondition(i);
-    p[i] = z[i];
-  }
-  goal *= rz;
-  for (int iteration = 0; iteration < 12 && rz > goal; ++iteration)
-  {
-    this->Network.Multiply(this->Scale, p.data(), product.data(), 1);
-    double pq = 0.0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      product[i] = fixed[i] == 1 ? this->Areas[i] * (product[i] + this->RowSums[i] * p[i]) : 0.0;
-      pq += p[i] * product[i];
-    }
-    if (!(pq > 0.0))
-    {
-      break;
-    }
-    const double alpha = rz / pq;
-    double next = 0.0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      x[i] += alpha * p[i];
-      r[i] -= alpha * product[i];
-      next += precondition(i);
-    }
-    const double beta = next / rz;
-    rz = next;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      p[i] = z[i] + beta * p[i];
-    }
-  }
-  return x;
+  return ConjugateGradients(product, diagonal, std::move(right), goal, 12);
 }
 
 /// Scales S by d on both sides so that the fixed rows sum to one. Rows that only a large change

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/ViewFactorClosure.h"
 
+#include "radiometry/formfactor/ConjugateGradients.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -56,7 +58,7 @@ double CloseExchange(std::vector<GroupExchange>& rows, const std::vector<double>
     const double error = std::max(rows[k].Error(), 1e-15 * rows[k].Value);
     weight[k] = error * error;
   }
-  std::vector<double> diagonal(n, 0.0), x(n, 0.0), r(n, 0.0), z(n), p(n), product(n);
+  std::vector<double> diagonal(n, 0.0), right(n, 0.0);
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
     diagonal[static_cast<std::size_t>(rows[k].I)] += weight[k];
@@ -66,45 +68,16 @@ double CloseExchange(std::vector<GroupExchange>& rows, const std::vector<double>
     }
   }
   const std::vector<double> sums = ExchangeSums(rows, n);
-  double rz = 0.0;
-  const auto precondition = [&](std::size_t i) {
-    z[i] = closed[i] && diagonal[i] > 0.0 ? r[i] / diagonal[i] : 0.0;
-    return r[i] * z[i];
-  };
   for (std::size_t i = 0; i < n; ++i)
   {
-    r[i] = closed[i] ? areas[i] - sums[i] : 0.0;
-    rz += precondition(i);
-    p[i] = z[i];
+    diagonal[i] = closed[i] ? diagonal[i] : 0.0;
+    right[i] = closed[i] ? areas[i] - sums[i] : 0.0;
   }
-  const double goal = 1e-26 * rz;
-  for (int iteration = 0; iteration < 200 && rz > goal; ++iteration)
-  {
-    Multiply(rows, weight, closed, p, product);
-    double pq = 0.0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      pq += p[i] * product[i];
-    }
-    if (!(pq > 0.0))
-    {
-      break;
-    }
-    const double alpha = rz / pq;
-    double next = 0.0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      x[i] += alpha * p[i];
-      r[i] -= alpha * product[i];
-      next += precondition(i);
-    }
-    const double beta = next / rz;
-    rz = next;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      p[i] = z[i] + beta * p[i];
-    }
-  }
+  const std::vector<double> x = ConjugateGradients(
+    [&](const std::vector<double>& p, std::vector<double>& out) {
+      Multiply(rows, weight, closed, p, out);
+    },
+    diagonal, std::move(right), 1e-26, 200);
   double largest = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {

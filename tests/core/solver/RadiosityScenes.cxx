@@ -266,8 +266,7 @@ std::vector<RadiosityScene> RadiosityScenes()
 
 std::string RadiosityReferencePath()
 {
-  const std::string here = __FILE__;
-  return here.substr(0, here.find_last_of('/') + 1) + "RadiosityReferences.txt";
+  return RADIOMETRY_SOURCE_DIR "/tests/core/solver/RadiosityReferences.txt";
 }
 
 std::vector<RadiosityReference> RadiosityReferences()
