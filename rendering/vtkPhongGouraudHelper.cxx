@@ -119,6 +119,7 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
   const auto either = [&](auto property) { return property(front) || (back && property(back)); };
 
   need(mapper->TwoSided || back, "TwoSided");
+  need(back != nullptr, "BackProperty");
   vtkNew<vtkMatrix4x4> objectToWorld;
   act->GetModelToWorldMatrix(objectToWorld);
   need(Has(needs, "TwoSided") && objectToWorld->Determinant() < 0.0, "Mirrored");
@@ -236,9 +237,11 @@ bool vtkPhongGouraudHelper::GetNeedToRebuildShaders(
 {
   this->Ours = this->DrawsItself(cellBO, act);
   const bool rebuild = this->Superclass::GetNeedToRebuildShaders(cellBO, ren, act);
-  std::string signature;
+  // VTK 9.2 reads the back-face property wherever the last program had one: no program outlives it.
+  std::string signature = act->GetBackfaceProperty() ? "BackProperty" : "";
   if (this->Ours)
   {
+    signature.clear();
     this->Features = this->Needs(ren, act);
     for (const std::string& feature : this->Features)
     {

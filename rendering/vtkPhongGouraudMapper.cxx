@@ -5,7 +5,9 @@
 
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkPolyData.h"
+#include "vtkRenderer.h"
 
 #include <algorithm>
 
@@ -18,6 +20,20 @@ vtkPhongGouraudMapper::~vtkPhongGouraudMapper() = default;
 vtkPhongGouraudProduct* vtkPhongGouraudMapper::vtkPhongGouraudFactory()
 {
   return vtkradiometry::NewProduct<vtkPhongGouraudHelper>();
+}
+
+void vtkPhongGouraudMapper::Render(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkRenderWindow* window = renderer->GetRenderWindow();
+  auto* last = vtkOpenGLRenderWindow::SafeDownCast(this->Window);
+  if (last && last != window)
+  {
+    last->PushContext();
+    this->ReleaseGraphicsResources(last);
+    last->PopContext();
+  }
+  this->Window = window;
+  this->Superclass::Render(renderer, actor);
 }
 
 void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)

@@ -24,11 +24,13 @@
 #include "vtkPhongGouraudBase.h"
 #include "vtkRadiometryRenderingModule.h" // for export macro
 #include "vtkSmartPointer.h"              // for ivars
+#include "vtkWeakPointer.h"               // for ivars
 
 #include <string> // for ivars
 
 class vtkInformationObjectBaseKey;
 class vtkPolyData;
+class vtkRenderWindow;
 
 class VTKRADIOMETRYRENDERING_EXPORT vtkPhongGouraudMapper : public vtkPhongGouraudMapperBase
 {
@@ -41,6 +43,12 @@ public:
    * Takes over another mapper's settings, the project's own too where it is one.
    */
   void ShallowCopy(vtkAbstractMapper* other) override;
+
+  /**
+   * Draws. What lies on the graphics processor belongs to one window: a mapper that is drawn in
+   * several by turns is uploaded anew at each turn.
+   */
+  void Render(vtkRenderer* renderer, vtkActor* actor) override;
 
   enum ShadingType
   {
@@ -310,6 +318,7 @@ protected:
   vtkSmartPointer<vtkPolyData> LightData;
 
   vtkTimeStamp BufferTime;     // of the last change that needs other buffers
+  vtkWeakPointer<vtkRenderWindow> Window; // that was drawn in last
   std::string ReportedProblem; // the defect in the lights that was reported last
   std::string VertexShaderText;
   std::string FragmentShaderText;
