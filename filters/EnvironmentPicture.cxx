@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EnvironmentPicture.h"
 
+#include "io/ExrColor.h"
+#include "io/ExrEnvironment.h"
 #include "io/ExrReader.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/Units.h"
 
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 
-#include <variant>
 #include <vector>
 
 namespace io = radiometry::io;
@@ -44,25 +47,21 @@ std::shared_ptr<const SkyRadiance> ReadPicture(const std::string& file, bool gre
   try
   {
     image = io::ReadExr(file);
+    if (!image.empty())
+    {
+      image[0] = io::ToLatLong(file, image[0]);
+      io::ConvertToRec709(file, image[0]);
+    }
   }
   catch (const io::FileError& error)
   {
-    throw InputError("FileName", -1, error.what(), "a lat-long OpenEXR picture");
+    throw InputError("FileName", -1, error.what(), "an OpenEXR picture, lat-long or a cube map");
   }
   if (image.empty() || image[0].Channels.empty())
   {
     throw InputError("FileName", -1, file, "a picture with a channel");
   }
   const io::ExrPart& part = image[0];
-  const auto envmap = part.Attributes.find("envmap");
-  if (envmap != part.Attributes.end())
-  {
-    const auto* kind = std::get_if<std::string>(&envmap->second);
-    if (kind && *kind == "cube")
-    {
-      throw InputError("FileName", -1, file + " (a cube map)", "a lat-long picture");
-    }
-  }
   std::vector<const io::ExrChannel*> channels{ part.Find("R"), part.Find("G"), part.Find("B") };
   if (!channels[0] || !channels[1] || !channels[2])
   {
@@ -88,6 +87,11 @@ std::shared_ptr<const SkyRadiance> ReadPicture(const std::string& file, bool gre
 
 std::shared_ptr<const SkyRadiance> PictureOf(vtkImageData* image, bool grey)
 {
+  auto* kind = vtkStringArray::SafeDownCast(image->GetFieldData()->GetAbstractArray("envmap"));
+  if (kind && kind->GetNumberOfValues() > 0 && kind->GetValue(0) == "cube")
+  {
+    throw InputError("Input", -1, "a cube map", "a lat-long picture (or FileName)");
+  }
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
   int size[3];
   image->GetDimensions(size);

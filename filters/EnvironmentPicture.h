@@ -8,7 +8,8 @@
 
 class vtkImageData;
 
-/// The lat-long map of an OpenEXR file: R, G, B as three bands, else its only channel (or Y, or the
+/// The map of an OpenEXR file, lat-long or (attribute envmap) a cube: R, G, B, taken to Rec.709 by the
+/// file's chromaticities, as three bands, else its only channel (or Y, or the
 /// first) as one. `grey`: three bands become their luminance.
 /// Fails: radiometry::InputError naming FileName, or EnvironmentMap with pixel and value.
 std::shared_ptr<const radiometry::SkyRadiance> ReadPicture(const std::string& file, bool grey);

@@ -65,8 +65,9 @@ public:
   };
 
   ///@{
-  /// The lat-long picture of the preset Map: an OpenEXR file with channels R, G, B (three bands) or
-  /// one channel. Zenith above, north in the middle, east to the right. Each pixel is even.
+  /// The picture of the preset Map: an OpenEXR file with channels R, G, B (three bands, taken to
+  /// linear Rec.709 by the file's chromaticities) or one channel. A cube map where its attribute envmap
+  /// says so (its +Y is up, +Z north, +X west), else lat-long: zenith above, north in the middle, east to the right. Each pixel is even.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenEXRReader.h"
 
+#include "io/ExrColor.h"
 #include "io/ExrReader.h"
 
 #include "vtkDataArray.h"
@@ -182,6 +183,41 @@ void AddWindow(vtkFieldData* field, const char* name, const io::ExrBox& box)
   field->AddArray(array);
 }
 
+void AddText(vtkFieldData* field, const char* name, const std::string& text)
+{
+  if (!text.empty())
+  {
+    auto array = AsArray()(text);
+    array->SetName(name);
+    field->AddArray(array);
+  }
+}
+
+/// The number of the part to read.
+std::size_t Choose(
+  const std::string& file, const io::ExrImage& image, int part, const std::string& name)
+{
+  std::string known;
+  for (std::size_t i = 0; i < image.size(); ++i)
+  {
+    if (!name.empty() && image[i].Name == name)
+    {
+      return i;
+    }
+    known += (i ? ", '" : "'") + image[i].Name + "'";
+  }
+  if (!name.empty())
+  {
+    throw io::FileError(file, "PartName = '" + name + "': the parts are " + known);
+  }
+  if (part >= static_cast<int>(image.size()))
+  {
+    throw io::FileError(file,
+      "Part = " + std::to_string(part) + ": expected 0 to " + std::to_string(image.size() - 1));
+  }
+  return static_cast<std::size_t>(part);
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkOpenEXRReader);
@@ -190,6 +226,22 @@ vtkStandardNewMacro(vtkOpenEXRReader);
 vtkOpenEXRReader::vtkOpenEXRReader() { this->SetNumberOfInputPorts(0); }
 
 vtkOpenEXRReader::~vtkOpenEXRReader() { this->SetFileName(nullptr); }
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRReader::SetPartName(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (wanted != this->WantedName)
+  {
+    this->WantedName = wanted;
+    this->Modified();
+  }
+}
+
+std::string vtkOpenEXRReader::GetPartName(int part) const
+{
+  return part >= 0 && part < this->GetNumberOfParts() ? this->PartNames[part] : std::string();
+}
 
 //------------------------------------------------------------------------------
 int vtkOpenEXRReader::CanReadFile(const char* fileName)
@@ -215,14 +267,12 @@ int vtkOpenEXRReader::RequestInformation(
   {
     const std::string file = this->FileName ? this->FileName : "";
     const io::ExrImage image = io::ReadExrHeaders(file, options);
-    this->NumberOfParts = static_cast<int>(image.size());
-    if (this->Part >= this->NumberOfParts)
+    this->PartNames.clear();
+    for (const io::ExrPart& part : image)
     {
-      throw io::FileError(file,
-        "Part = " + std::to_string(this->Part) + ": expected 0 to " +
-          std::to_string(this->NumberOfParts - 1));
+      this->PartNames.push_back(part.Name);
     }
-    const io::ExrPart& part = image[this->Part];
+    const io::ExrPart& part = image[Choose(file, image, this->Part, this->WantedName)];
     this->PartName = part.Name;
     const io::ExrBox& w = part.DataWindow;
     vtkInformation* info = outputs->GetInformationObject(0);
@@ -239,7 +289,7 @@ int vtkOpenEXRReader::RequestInformation(
   {
     vtkErrorMacro(<< e.what());
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-    this->NumberOfParts = 0;
+    this->PartNames.clear();
     return 0;
   }
 }
@@ -257,7 +307,13 @@ int vtkOpenEXRReader::RequestData(
   io::ExrImage image;
   try
   {
-    image = io::ReadExr(this->FileName ? this->FileName : "", options);
+    const std::string file = this->FileName ? this->FileName : "";
+    image = io::ReadExr(file, options);
+    image = { image[Choose(file, image, this->Part, this->WantedName)] };
+    if (this->ColorSpace == LinearRec709)
+    {
+      io::ConvertToRec709(file, image[0]);
+    }
   }
   catch (const io::FileError& e)
   {
@@ -265,7 +321,7 @@ int vtkOpenEXRReader::RequestData(
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
     return 0;
   }
-  const io::ExrPart& part = image[this->Part];
+  const io::ExrPart& part = image[0];
   const int width = static_cast<int>(part.DataWindow.Width());
   const int height = static_cast<int>(part.DataWindow.Height());
   output->SetExtent(0, width - 1, 0, height - 1, 0, 0);
@@ -305,6 +361,8 @@ int vtkOpenEXRReader::RequestData(
   }
   AddWindow(field, "dataWindow", part.DataWindow);
   AddWindow(field, "displayWindow", part.DisplayWindow);
+  AddText(field, "name", part.Name);
+  AddText(field, "view", part.View);
   return 1;
 }
 
@@ -314,6 +372,8 @@ void vtkOpenEXRReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
      << indent << "Part: " << this->Part << "\n"
+     << indent << "PartName: " << this->WantedName << "\n"
+     << indent << "ColorSpace: " << this->ColorSpace << " (0 as stored, 1 linear Rec.709)\n"
      << indent << "KeepNonFinite: " << this->KeepNonFinite << "\n"
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

@@ -6,6 +6,7 @@
 #include "vtkRadiometryFiltersModule.h" // for export macro
 
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 /// Reads a scene-linear OpenEXR file: every channel into point arrays of an image.
 ///   Writes  R, G, B (, A): "RGB" ("RGBA"), the active scalars; name.R, name.G, name.B (, .A) and
@@ -14,8 +15,9 @@
 ///           unsigned int. Row 0 is the lowest. Origin: where the data window lies in the display
 ///           window, from its lower left. Attributes become field data, with dataWindow and
 ///           displayWindow; "name.units" also the unit of the array (vtkDataArray::UNITS_LABEL).
-///   Model   luminance and chroma (Y, RY, BY) become R, G, B; other sub-sampled channels are
-///           repeated to full size. Nothing is converted: the chromaticities say what R, G, B mean
+///           The field data "name" and "view" are the part's.
+///   Model   luminance and chroma (Y, RY, BY; files of one part) become R, G, B; other sub-sampled
+///           channels are repeated to full size. Colours are converted on request (ColorSpace)
 ///   Cost    the memory of the picture; more than MemoryLimit is an error before any is taken
 ///   Fails   no file, not OpenEXR, damaged or cut short, deep data, NaN or infinity when
 ///           KeepNonFinite is off: an error event and an empty output
@@ -41,9 +43,27 @@ public:
   vtkGetMacro(Part, int);
   ///@}
 
-  /// The number of parts, and the name of one (often empty). Known after UpdateInformation.
-  int GetNumberOfParts() const { return this->NumberOfParts; }
+  /// Chooses the part of this name; it wins over Part. Default empty: Part counts.
+  void SetPartName(const char* name);
+
+  /// The number of parts, the name of the one that is read (often empty) and of any (counted from 0).
+  /// Known after UpdateInformation.
+  int GetNumberOfParts() const { return static_cast<int>(this->PartNames.size()); }
   std::string GetPartName() const { return this->PartName; }
+  std::string GetPartName(int part) const;
+
+  enum ColorSpaces
+  {
+    AsStored = 0,
+    LinearRec709 = 1
+  };
+  ///@{
+  /// Whether R, G, B stay as they are (AsStored, default; the field data chromaticities say what they
+  /// mean) or become linear Rec.709 by the file's chromaticities: the same CIE XYZ, the white not
+  /// adapted.
+  vtkSetClampMacro(ColorSpace, int, AsStored, LinearRec709);
+  vtkGetMacro(ColorSpace, int);
+  ///@}
 
   ///@{
   /// Whether NaN and infinities are kept. Default on; off: the first one is an error that names
@@ -76,8 +96,10 @@ private:
   int Part = 0;
   bool KeepNonFinite = true;
   int MemoryLimit = 4096;
-  int NumberOfParts = 0;
+  int ColorSpace = AsStored;
+  std::vector<std::string> PartNames;
   std::string PartName;
+  std::string WantedName;
 };
 
 #endif

@@ -4,6 +4,8 @@
 #include "FieldAttributes.h"
 #include "io/ExrWriter.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
@@ -73,7 +75,51 @@ std::string ComponentSuffix(vtkDataArray* array, int component, bool normals)
                                              : "." + std::to_string(component);
 }
 
+/// The text of a field array of one string; empty where there is none.
+std::string FieldText(vtkDataObject* data, const char* name)
+{
+  auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name));
+  return array && array->GetNumberOfValues() > 0 ? std::string(array->GetValue(0)) : std::string();
+}
+
+/// A window in the field data, as the reader makes it; empty where there is none.
+io::ExrBox FieldWindow(vtkDataObject* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  if (!array || array->GetNumberOfValues() != 4)
+  {
+    return {};
+  }
+  const auto value = [&](int i) {
+    const int c = array->GetNumberOfComponents();
+    return static_cast<int>(array->GetComponent(i / c, i % c));
+  };
+  return { value(0), value(1), value(2), value(3) };
+}
+
+/// The array whose components are R, G, B (, A): "RGB", "RGBA" or else the active scalars.
+vtkDataArray* PictureArray(vtkPointData* points)
+{
+  for (vtkDataArray* candidate :
+    { points->GetArray("RGB"), points->GetArray("RGBA"), points->GetScalars() })
+  {
+    if (candidate &&
+      (candidate->GetNumberOfComponents() == 3 || candidate->GetNumberOfComponents() == 4))
+    {
+      return candidate;
+    }
+  }
+  return nullptr;
+}
+
 } // namespace
+
+/// An image that becomes a part, and the name that its place in composite data gives it.
+struct vtkOpenEXRWriter::Picture
+{
+  vtkImageData* Image;
+  std::string Name;
+};
 
 /// Gathers the part to write, and keeps what had to be converted for it.
 struct vtkOpenEXRWriter::Assembly
@@ -82,6 +128,8 @@ struct vtkOpenEXRWriter::Assembly
   io::ExrPart Part;
   std::vector<vtkSmartPointer<vtkDataArray>> Kept;
 
+  void Place(vtkImageData* image);
+  void AddArrays(vtkImageData* image);
   void AddArray(vtkDataArray* array, bool picture);
   void AddAttributes(vtkImageData* image);
 };
@@ -196,6 +244,50 @@ void vtkOpenEXRWriter::Assembly::AddAttributes(vtkImageData* image)
   }
 }
 
+//------------------------------------------------------------------------------
+/// Windows, packing, aspect.
+void vtkOpenEXRWriter::Assembly::Place(vtkImageData* image)
+{
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  const int* origin = this->Self->DataWindowOrigin;
+  const int* display = this->Self->DisplayWindow;
+  this->Part.DataWindow = { origin[0], origin[1], origin[0] + dimensions[0] - 1,
+    origin[1] + dimensions[1] - 1 };
+  const io::ExrBox was = FieldWindow(image, "dataWindow");
+  if (origin[0] == 0 && origin[1] == 0 && was.Width() == dimensions[0] &&
+    was.Height() == dimensions[1])
+  {
+    this->Part.DataWindow = was;
+  }
+  this->Part.DisplayWindow = { display[0], display[1], display[2], display[3] };
+  if (this->Part.DisplayWindow.Width() < 1 || this->Part.DisplayWindow.Height() < 1)
+  {
+    this->Part.DisplayWindow = FieldWindow(image, "displayWindow");
+  }
+  this->Part.Compression = static_cast<io::ExrCompression>(this->Self->Compression);
+  this->Part.DwaLevel = static_cast<float>(this->Self->DwaCompressionLevel);
+  this->Part.TileWidth = this->Part.TileHeight = this->Self->TileSize;
+  double spacing[3];
+  image->GetSpacing(spacing);
+  this->Part.PixelAspectRatio =
+    spacing[0] > 0.0 && spacing[1] > 0.0 ? static_cast<float>(spacing[0] / spacing[1]) : 1.0f;
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::Assembly::AddArrays(vtkImageData* image)
+{
+  vtkPointData* points = image->GetPointData();
+  vtkDataArray* picture = PictureArray(points);
+  for (int i = 0; i < points->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = points->GetArray(i))
+    {
+      this->AddArray(array, array == picture);
+    }
+  }
+}
+
 vtkStandardNewMacro(vtkOpenEXRWriter);
 
 //------------------------------------------------------------------------------
@@ -217,6 +309,8 @@ vtkOpenEXRWriter::~vtkOpenEXRWriter() { this->SetFileName(nullptr); }
 int vtkOpenEXRWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   return 1;
 }
 
@@ -272,58 +366,98 @@ void vtkOpenEXRWriter::ClearAttributes()
 }
 
 //------------------------------------------------------------------------------
-void vtkOpenEXRWriter::WriteData()
+void vtkOpenEXRWriter::SetPartName(int part, const char* name)
 {
-  vtkImageData* image = this->GetImageInput();
-  int dimensions[3] = { 0, 0, 0 };
-  if (image)
-  {
-    image->GetDimensions(dimensions);
-  }
-  if (dimensions[0] < 1 || dimensions[1] < 1 || dimensions[2] != 1)
-  {
-    vtkErrorMacro("an image of " << dimensions[0] << " x " << dimensions[1] << " x "
-                                 << dimensions[2] << " points: expected one slice in x and y");
-    this->SetErrorCode(vtkErrorCode::FileFormatError);
-    return;
-  }
-  Assembly assembly{ this, {}, {} };
-  io::ExrPart& part = assembly.Part;
-  const int* origin = this->DataWindowOrigin;
-  part.DataWindow = { origin[0], origin[1], origin[0] + dimensions[0] - 1,
-    origin[1] + dimensions[1] - 1 };
-  part.DisplayWindow = { this->DisplayWindow[0], this->DisplayWindow[1], this->DisplayWindow[2],
-    this->DisplayWindow[3] };
-  part.Compression = static_cast<io::ExrCompression>(this->Compression);
-  part.TileWidth = part.TileHeight = this->TileSize;
-  double spacing[3];
-  image->GetSpacing(spacing);
-  part.PixelAspectRatio =
-    spacing[0] > 0.0 && spacing[1] > 0.0 ? static_cast<float>(spacing[0] / spacing[1]) : 1.0f;
+  this->PartNames[part] = name ? name : "";
+  this->Modified();
+}
 
-  vtkPointData* points = image->GetPointData();
-  const auto isColour = [](vtkDataArray* array) {
-    return array && (array->GetNumberOfComponents() == 3 || array->GetNumberOfComponents() == 4);
-  };
-  vtkDataArray* picture = points->GetArray("RGB");
-  for (vtkDataArray* candidate : { points->GetArray("RGBA"), points->GetScalars() })
+void vtkOpenEXRWriter::SetPartView(int part, const char* view)
+{
+  this->PartViews[part] = view ? view : "";
+  this->Modified();
+}
+
+void vtkOpenEXRWriter::ClearPartNames()
+{
+  this->PartNames.clear();
+  this->PartViews.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkOpenEXRWriter::Picture> vtkOpenEXRWriter::GetPictures()
+{
+  std::vector<Picture> pictures;
+  for (int i = 0; i < this->GetNumberOfInputConnections(0); ++i)
   {
-    picture = isColour(picture) ? picture : candidate;
-  }
-  picture = isColour(picture) ? picture : nullptr;
-  for (int i = 0; i < points->GetNumberOfArrays(); ++i)
-  {
-    if (vtkDataArray* array = points->GetArray(i))
+    vtkDataObject* data = this->GetInputDataObject(0, i);
+    auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+    if (!composite)
     {
-      assembly.AddArray(array, array == picture);
+      pictures.push_back({ vtkImageData::SafeDownCast(data), "" });
+      continue;
+    }
+    const auto iterator = vtk::TakeSmartPointer(composite->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      const char* name = iterator->HasCurrentMetaData()
+        ? iterator->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME())
+        : nullptr;
+      pictures.push_back(
+        { vtkImageData::SafeDownCast(iterator->GetCurrentDataObject()), name ? name : "" });
     }
   }
-  assembly.AddAttributes(image);
+  return pictures;
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRWriter::WriteData()
+{
+  const std::vector<Picture> pictures = this->GetPictures();
+  std::vector<Assembly> assemblies;
+  io::ExrImage image;
+  for (const Picture& picture : pictures)
+  {
+    int dimensions[3] = { 0, 0, 0 };
+    if (picture.Image)
+    {
+      picture.Image->GetDimensions(dimensions);
+    }
+    if (dimensions[0] < 1 || dimensions[1] < 1 || dimensions[2] != 1)
+    {
+      vtkErrorMacro("part " << image.size() << ": an image of " << dimensions[0] << " x "
+                            << dimensions[1] << " x " << dimensions[2]
+                            << " points: expected images of one slice in x and y");
+      this->SetErrorCode(vtkErrorCode::FileFormatError);
+      return;
+    }
+    Assembly assembly{ this, {}, {} };
+    assembly.Place(picture.Image);
+    assembly.AddArrays(picture.Image);
+    assembly.AddAttributes(picture.Image);
+    const int number = static_cast<int>(image.size());
+    const auto given = [number](const std::map<int, std::string>& from) {
+      const auto found = from.find(number);
+      return found == from.end() ? std::string() : found->second;
+    };
+    io::ExrPart& part = assembly.Part;
+    for (const std::string& name :
+      { given(this->PartNames), picture.Name, FieldText(picture.Image, "name"),
+        pictures.size() > 1 ? "part" + std::to_string(number) : std::string() })
+    {
+      part.Name = part.Name.empty() ? name : part.Name;
+    }
+    part.View = given(this->PartViews);
+    part.View = part.View.empty() ? FieldText(picture.Image, "view") : part.View;
+    image.push_back(part);
+    assemblies.push_back(std::move(assembly));
+  }
   try
   {
     io::ExrWriteOptions options;
     options.KeepNonFinite = this->KeepNonFinite;
-    io::WriteExr(this->FileName ? this->FileName : "", { part }, options);
+    io::WriteExr(this->FileName ? this->FileName : "", image, options);
   }
   catch (const io::FileError& e)
   {
@@ -339,6 +473,7 @@ void vtkOpenEXRWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
      << indent << "PixelType: " << this->PixelType << "\n"
      << indent << "Compression: " << this->Compression << "\n"
+     << indent << "DwaCompressionLevel: " << this->DwaCompressionLevel << "\n"
      << indent << "TileSize: " << this->TileSize << "\n"
      << indent << "WhiteLuminance: " << this->WhiteLuminance << "\n"
      << indent << "WriteFieldData: " << this->WriteFieldData << "\n"

@@ -7,11 +7,13 @@
 
 #include <map>    // for std::map
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 class vtkImageData;
 
-/// Writes the point arrays of an image as the channels of a scene-linear OpenEXR file.
-///   Reads   a vtkImageData of one slice in x and y. Its point arrays become channels:
+/// Writes the point arrays of images as the channels of a scene-linear OpenEXR file.
+///   Reads   one or more vtkImageData of one slice in x and y, or composite data of them: each image
+///           becomes a part. Its point arrays become channels:
 ///             "RGB", "RGBA" or else the active scalars of 3 or 4 components: R, G, B (, A)
 ///             "N" or "Normals":  N.X, N.Y, N.Z
 ///             one component:     the array's name (Z, Irradiance, IrradianceError, ...)
@@ -19,12 +21,17 @@ class vtkImageData;
 ///             any other number:  name.0, name.1, ...
 ///           A unit (vtkDataArray::UNITS_LABEL) becomes the attribute "name.units"; field data
 ///           become attributes of their name.
-///   Writes  one part, scan lines or tiles. Floats and doubles in PixelType (or as SetArrayPixelType
+///   Writes  one part an image, scan lines or tiles; of several each has a name (SetPartName, else the
+///           block's, else the field data "name", else part0, ...) and may have a view (SetPartView,
+///           else the field data "view"): "left" and "right" of a stereo pair. Field data dataWindow
+///           and displayWindow (as the reader makes them) place the pixels where the properties do
+///           not. Floats and doubles in PixelType (or as SetArrayPixelType
 ///           says), integers as uint where none is negative, else as float. R, G, B of 8 or 16
 ///           bits count as 0 to 1. Row 0 of VTK is the lowest, of OpenEXR the highest: the picture
 ///           stands upright in both.
 ///   Cost    two passes over the arrays; no copy of float and double arrays
-///   Fails   no arrays, several slices, NaN or infinity (unless KeepNonFinite), a value that the
+///   Fails   no arrays, several slices, two parts of one name, parts that differ in display window,
+///           chromaticities or the aspect of pixels (the format makes them share these), NaN or infinity (unless KeepNonFinite), a value that the
 ///           pixel type cannot hold, a folder that cannot be written: an error event and a return
 ///           of 0. The file appears when it is complete; on a failure the target stays as it was.
 class VTKRADIOMETRYFILTERS_EXPORT vtkOpenEXRWriter : public vtkWriter
@@ -40,7 +47,15 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /// The first image, where the first input is no composite data.
   vtkImageData* GetImageInput();
+
+  ///@{
+  /// Name and view of a part, counted from 0 over all inputs and their blocks. Empty: as said above.
+  void SetPartName(int part, const char* name);
+  void SetPartView(int part, const char* view);
+  void ClearPartNames();
+  ///@}
 
   enum PixelTypes
   {
@@ -77,6 +92,12 @@ public:
   /// visibly, on half).
   vtkSetClampMacro(Compression, int, None, DWAB);
   vtkGetMacro(Compression, int);
+  ///@}
+
+  ///@{
+  /// How much DWAA and DWAB may lose: 0 next to nothing, 45 (default) hardly visible, more is smaller.
+  vtkSetClampMacro(DwaCompressionLevel, double, 0.0, 100000.0);
+  vtkGetMacro(DwaCompressionLevel, double);
   ///@}
 
   ///@{
@@ -127,14 +148,15 @@ public:
   ///@}
 
   ///@{
-  /// Column and row (downward) of the upper left pixel in the file. Default (0, 0).
+  /// Column and row (downward) of the upper left pixel in the file, of every part. Default (0, 0): as
+  /// the field data dataWindow says, if it has the image's size, else that.
   vtkSetVector2Macro(DataWindowOrigin, int);
   vtkGetVector2Macro(DataWindowOrigin, int);
   ///@}
 
   ///@{
   /// The whole picture that the pixels are a part of: first column, first row, last column, last
-  /// row. Default (0, 0, -1, -1): the pixels are the whole.
+  /// row. Default (0, 0, -1, -1): as the field data displayWindow says, else the pixels are the whole.
   vtkSetVector4Macro(DisplayWindow, int);
   vtkGetVector4Macro(DisplayWindow, int);
   ///@}
@@ -151,10 +173,13 @@ private:
   void operator=(const vtkOpenEXRWriter&) = delete;
 
   struct Assembly;
+  struct Picture;
+  std::vector<Picture> GetPictures();
 
   char* FileName = nullptr;
   int PixelType = Float;
   int Compression = ZIP;
+  double DwaCompressionLevel = 45.0;
   int TileSize = 0;
   double Chromaticities[8];
   double WhiteLuminance = 0.0;
@@ -164,6 +189,8 @@ private:
   int DataWindowOrigin[2] = { 0, 0 };
   int DisplayWindow[4] = { 0, 0, -1, -1 };
   std::map<std::string, int> ArrayPixelTypes;
+  std::map<int, std::string> PartNames;
+  std::map<int, std::string> PartViews;
   std::map<std::string, std::string> TextAttributes;
   std::map<std::string, double> NumberAttributes;
 };

@@ -24,6 +24,9 @@ namespace
 const char* const latLongMap = "latlong";
 const char* const cubeMap = "cube";
 
+/// Where the level of DWA stands.
+const char* const dwaLevel = "dwaCompressionLevel";
+
 /// OpenEXR's limit on the length of names.
 constexpr std::size_t longestName = 255;
 
@@ -219,6 +222,19 @@ Imf::Header MakeHeader(const std::string& file, const ExrPart& part, bool named)
   {
     header.setName(part.Name);
   }
+  if (!part.View.empty())
+  {
+    header.setView(part.View);
+  }
+  if (part.Compression == ExrCompression::DWAA || part.Compression == ExrCompression::DWAB)
+  {
+    if (!(part.DwaLevel >= 0.0f && part.DwaLevel <= 100000.0f))
+    {
+      throw FileError(file,
+        "DWA level " + std::to_string(part.DwaLevel) + ": expected 0 to 100000 (45 is usual)");
+    }
+    header.insert(dwaLevel, Imf::FloatAttribute(part.DwaLevel)); // the packer reads it there
+  }
   if (part.Channels.empty())
   {
     throw FileError(file, "no channels to write");
@@ -249,7 +265,10 @@ Imf::Header MakeHeader(const std::string& file, const ExrPart& part, bool named)
     {
       throw FileError(file, "attribute 'envmap' must be the text 'latlong' or 'cube'");
     }
-    std::visit(Insert{ header, name }, value);
+    if (name != dwaLevel)
+    {
+      std::visit(Insert{ header, name }, value);
+    }
   }
   return header;
 }
@@ -258,6 +277,7 @@ ExrPart ReadHeader(const Imf::Header& header)
 {
   ExrPart part;
   part.Name = header.hasName() ? header.name() : "";
+  part.View = header.hasView() ? header.view() : "";
   part.DataWindow = FromBox(header.dataWindow());
   part.DisplayWindow = FromBox(header.displayWindow());
   part.PixelAspectRatio = header.pixelAspectRatio();
@@ -290,6 +310,8 @@ ExrPart ReadHeader(const Imf::Header& header)
     if (Extract(a.attribute(), value))
     {
       part.Attributes[a.name()] = value;
+      const auto* level = std::get_if<float>(&value);
+      part.DwaLevel = level && std::string(a.name()) == dwaLevel ? *level : part.DwaLevel;
     }
     else
     {

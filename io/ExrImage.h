@@ -105,14 +105,17 @@ struct ExrChannel
   double At(std::ptrdiff_t i, std::ptrdiff_t j) const;
 };
 
-/// One picture of a file (most files have one).
+/// One picture of a file (most files have one). The parts of a file share the display window, the
+/// aspect ratio of pixels and the chromaticities.
 struct ExrPart
 {
   std::string Name; ///< must be set and unique in a file of several parts
+  std::string View; ///< "left", "right" of a stereo pair, or empty
   ExrBox DataWindow;
   ExrBox DisplayWindow; ///< empty: the data window
   float PixelAspectRatio = 1.0f;
   ExrCompression Compression = ExrCompression::ZIP;
+  float DwaLevel = 45.0f; ///< DWAA, DWAB: 0 nearly lossless, more is smaller and worse
   int TileWidth = 0; ///< 0: scan lines
   int TileHeight = 0;
   std::vector<ExrChannel> Channels;

@@ -2,6 +2,7 @@
 #include "io/ExrReader.h"
 
 #include "io/ExrHeader.h"
+#include "io/ExrThreads.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -237,7 +238,7 @@ void ReadPart(Imf::MultiPartInputFile& file, int index, ExrPart& part)
   input.setFrameBuffer(frame);
   const long long step = part.TileHeight > 0
     ? part.TileHeight
-    : std::max(16, LinesPerChunk(static_cast<Imf::Compression>(part.Compression)));
+    : std::max(64, 8 * LinesPerChunk(static_cast<Imf::Compression>(part.Compression)));
   for (long long y = w.YMin; y <= w.YMax; y += step)
   {
     const long long last = std::min<long long>(y + step - 1, w.YMax);
@@ -327,7 +328,7 @@ ExrImage ReadExr(const std::string& fileName, const ExrReadOptions& options)
   return Guarded(fileName, [&] {
     ExrImage image = CheckedHeaders(fileName, options);
     {
-      Imf::MultiPartInputFile file(fileName.c_str(), 0, false);
+      Imf::MultiPartInputFile file(fileName.c_str(), ExrThreads(options.Threads), false);
       if (file.parts() != static_cast<int>(image.size()))
       {
         throw FileError(fileName, "is damaged: its parts do not match its headers");

@@ -18,6 +18,8 @@ struct ExrReadOptions
   bool DecodeLuminanceChroma = true;
   /// The most bytes that the pixels of all parts may take; more is an error before any is read.
   std::uint64_t MemoryLimit = std::uint64_t(4) << 30;
+  /// Threads that unpack pixels (0: all). What is read does not depend on it.
+  int Threads = 0;
 };
 
 /// Reads the headers only: channels without data.

@@ -204,14 +204,64 @@ void WritePart(Imf::MultiPartOutputFile& file, int index, const ExrPart& part)
   }
 }
 
+/// A copy in which the parts agree on what the format makes them share: a display window that is not
+/// said is that of the others, or all of their pixels; chromaticities of one are those of all.
+ExrImage WithSharedAttributes(const std::string& file, ExrImage image)
+{
+  const auto disagree = [&](const ExrPart& part, const char* what) {
+    throw FileError(file,
+      "part '" + part.Name + "' has another " + what +
+        " than the parts before it: all parts of a file share it");
+  };
+  ExrBox shared;
+  ExrBox pixels = image.front().DataWindow;
+  const ExrAttribute* chromaticities = nullptr;
+  for (const ExrPart& part : image)
+  {
+    const bool said = part.DisplayWindow.Width() > 0 && part.DisplayWindow.Height() > 0;
+    if (said && shared.Width() > 0 && !(shared == part.DisplayWindow))
+    {
+      disagree(part, "display window");
+    }
+    shared = said ? part.DisplayWindow : shared;
+    pixels = { std::min(pixels.XMin, part.DataWindow.XMin),
+      std::min(pixels.YMin, part.DataWindow.YMin), std::max(pixels.XMax, part.DataWindow.XMax),
+      std::max(pixels.YMax, part.DataWindow.YMax) };
+    if (part.PixelAspectRatio != image.front().PixelAspectRatio)
+    {
+      disagree(part, "aspect ratio of pixels");
+    }
+    const auto own = part.Attributes.find("chromaticities");
+    if (own != part.Attributes.end())
+    {
+      if (chromaticities && *chromaticities != own->second)
+      {
+        disagree(part, "set of chromaticities");
+      }
+      chromaticities = &own->second;
+    }
+  }
+  const ExrAttribute colours = chromaticities ? *chromaticities : ExrAttribute();
+  for (ExrPart& part : image)
+  {
+    part.DisplayWindow = shared.Width() > 0 ? shared : pixels;
+    if (chromaticities)
+    {
+      part.Attributes["chromaticities"] = colours;
+    }
+  }
+  return image;
+}
+
 } // namespace
 
-void WriteExr(const std::string& fileName, const ExrImage& image, const ExrWriteOptions& options)
+void WriteExr(const std::string& fileName, const ExrImage& parts, const ExrWriteOptions& options)
 {
-  if (image.empty())
+  if (parts.empty())
   {
     throw FileError(fileName, "no image to write");
   }
+  const ExrImage image = parts.size() > 1 ? WithSharedAttributes(fileName, parts) : parts;
   std::vector<Imf::Header> headers;
   std::set<std::string> names;
   for (const ExrPart& part : image)

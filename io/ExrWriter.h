@@ -21,7 +21,8 @@ struct ExrWriteOptions
 ///   Fails   FileError: no channels, a window that is empty or does not fit the channels, a name
 ///           twice, NaN or infinity (see options), a value that the pixel type cannot hold (more
 ///           than 65504 for half; a negative value or a fraction for uint), the system's reason
-///           where the file cannot be written. The target is then what it was before.
+///           where the file cannot be written; parts that differ in what the format makes them share
+///           (display window, aspect ratio of pixels, chromaticities). The target is then what it was before.
 ///
 /// The file appears under its name when it is complete (AsideFile). Float values reach the file
 /// bit by bit with every compression up to PIZ; double values are rounded to float.

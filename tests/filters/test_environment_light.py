@@ -9,6 +9,7 @@ import numpy as np
 from checks import array, cell_values, close, fails, points, run_all, simulation, strings
 from vtkmodules.numpy_interface import dataset_adapter as dsa
 from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkPolyDataNormals
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkPlaneSource, vtkSphereSource
@@ -161,6 +162,50 @@ def test_maps():
         fails(sky(Preset=MAP, FileName=name), "EnvironmentMap[5]", "nan")
         fails(sky(Preset=MAP, FileName=name + "-not"), "FileName", "map.exr-not")
     fails(sky(Preset=MAP), "FileName", "empty")
+
+
+def test_cube_maps():
+    # One face three times as bright: a plane that looks along its axis gets pi (1 + 2 F), F the
+    # configuration factor of a square of twice its distance. Faces +X, -X, +Y, -Y, +Z, -Z of the
+    # file from the top; its +Y is up, +Z azimuth 0, +X to the left of it: west.
+    factor = 4 / math.pi * math.atan(math.sqrt(0.5)) * math.sqrt(0.5)
+    n = 32
+    words = vtkStringArray()
+    words.SetName("envmap")
+    words.InsertNextValue("cube")
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "cube.exr")
+        for face, normal in enumerate(((-1, 0, 0), (1, 0, 0), (0, 0, 1), (0, 0, -1), (0, 1, 0),
+                                       (0, -1, 0))):
+            pixels = np.ones((6 * n, n, 3))
+            pixels[face * n:(face + 1) * n, :, 1] = 3.0
+            image = picture(pixels)
+            image.GetFieldData().AddArray(words)
+            writer = vtkOpenEXRWriter()
+            writer.SetInputData(image)
+            writer.SetFileName(name)
+            writer.Write()
+            source = sky(Preset=MAP, FileName=name, IntensityUnit=RADIANCE, Intensity=1.0)
+            values = cell_values(
+                simulation(vtkIrradianceFilter, plane(normal), source), "Irradiance")
+            close(values, [[math.pi, math.pi * (1 + 2 * factor), math.pi]], 5e-3)
+        by_data = sky(Preset=MAP)
+        by_data.SetMapData(image)
+        fails(by_data, "cube map")
+
+
+def test_colours_of_a_map():
+    # D65 as CIE XYZ, in a file whose primaries are X, Y, Z: white in Rec.709.
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "xyz.exr")
+        writer = vtkOpenEXRWriter()
+        writer.SetInputData(picture(np.tile([0.9505, 1.0, 1.089], (2, 4, 1))))
+        writer.SetFileName(name)
+        writer.SetChromaticities([1, 0, 0, 1, 0, 0, 1 / 3, 1 / 3])
+        writer.Write()
+        source = sky(Preset=MAP, FileName=name, IntensityUnit=RADIANCE, Intensity=1.0)
+        source.Update()
+        close(array(source.GetOutput().GetFieldData(), "EnvironmentMap0"), np.ones((8, 3)), 1e-3)
 
 
 def round_trip(data):

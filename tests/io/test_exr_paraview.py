@@ -46,6 +46,20 @@ check((after["RGB"] == before["RGB"].astype(np.float32)).all(), "the colours")
 data = reader.GetClientSideObject().GetOutputDataObject(0)
 check(data.GetFieldData().GetAbstractArray("RTData.units").GetValue(0) == "W/m^2", "attributes")
 
+group = simple.GroupDatasets(Input=[colour, wavelet])
+parts = os.path.join(folder, "parts.exr")
+simple.SaveData(parts, proxy=group, ArrayPixelTypes=["RTData", "0"])
+second = simple.OpenDataFile(parts)
+second.Part = 1
+parted = points(second)
+check(set(parted) == {"RTData"}, "a group becomes parts: %s" % sorted(parted))
+check(np.abs(parted["RTData"] - before["RTData"]).max() < 0.13
+      and (parted["RTData"] != before["RTData"]).any(), "one array as half")
+second.Part = 0
+second.ColorSpace = "Linear Rec.709"
+check("RGB" in points(second), "the first part")
+simple.Delete(second)
+
 shown = simple.OpenColorIOTransform(Input=reader, Colors=["POINTS", "RGB"], Exposure=1.0,
                                     Display="sRGB", View="Plain")
 encoded = points(shown)["RGB"]

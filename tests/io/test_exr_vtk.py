@@ -9,7 +9,9 @@ import tempfile
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 
 from vtkradiometry import vtkOpenEXRReader, vtkOpenEXRWriter
 
@@ -39,7 +41,7 @@ def write(data, name, prepare=None, **properties):
     writer = vtkOpenEXRWriter()
     errors = []
     writer.AddObserver("ErrorEvent", lambda *_: errors.append(1))
-    writer.SetInputData(data)
+    writer.SetInputDataObject(data)
     writer.SetFileName(os.path.join(FOLDER, name))
     for key, value in properties.items():
         getattr(writer, "Set" + key)(value)
@@ -173,6 +175,80 @@ _, output, _ = read("windows.exr")
 check(field(output, "dataWindow") == [10, 20, 10 + WIDTH - 1, 20 + HEIGHT - 1], "data window")
 check(output.GetOrigin() == (10.0, 79.0 - (20 + HEIGHT - 1), 0.0), "origin from the lower left")
 
+# What the reader made is written in the same place again.
+check(write(output, "windows2.exr") == 0, "windows again")
+_, again, _ = read("windows2.exr")
+check(field(again, "dataWindow") == field(output, "dataWindow")
+      and field(again, "displayWindow") == field(output, "displayWindow"), "windows are kept")
+
+# Several parts: inputs, blocks, names, views, sizes of their own.
+writer = vtkOpenEXRWriter()
+writer.SetFileName(os.path.join(FOLDER, "parts.exr"))
+small = vtkImageData()
+small.SetDimensions(5, 4, 1)
+small_z = numpy_to_vtk(np.arange(20, dtype=np.float32), deep=True)
+small_z.SetName("Z")
+small.GetPointData().AddArray(small_z)
+for part in (image(RGB=rgb), image(RGB=2 * rgb), small):
+    trivial = vtkTrivialProducer()
+    trivial.SetOutput(part)
+    writer.AddInputConnection(trivial.GetOutputPort())
+writer.SetPartName(0, "rgb.left")
+writer.SetPartView(0, "left")
+writer.SetPartName(1, "rgb.right")
+writer.SetPartView(1, "right")
+check(writer.Write() == 1, "three inputs")
+reader = vtkOpenEXRReader()
+reader.SetFileName(os.path.join(FOLDER, "parts.exr"))
+reader.UpdateInformation()
+check([reader.GetPartName(i) for i in range(reader.GetNumberOfParts())]
+      == ["rgb.left", "rgb.right", "part2"], "three parts and their names")
+left, output, _ = read("parts.exr")
+check((left["RGB"] == rgb).all() and field(output, "view") == "left"
+      and field(output, "name") == "rgb.left", "the first part")
+right, output, _ = read("parts.exr", PartName="rgb.right")
+check((right["RGB"] == 2 * rgb).all() and field(output, "view") == "right", "a part by name")
+last, output, _ = read("parts.exr", Part=2)
+check((last["Z"] == np.arange(20)).all() and output.GetDimensions() == (5, 4, 1), "a small part")
+check(field(output, "displayWindow") == [0, 0, WIDTH - 1, HEIGHT - 1], "one display window")
+check(read("parts.exr", PartName="nobody")[2] > 0, "no part of that name")
+check(read("parts.exr", Part=3)[2] > 0, "no fourth part")
+
+blocks = vtkMultiBlockDataSet()
+for i, (name, part) in enumerate((("beauty", image(RGB=rgb)), ("data", image(Z=depth)))):
+    blocks.SetBlock(i, part)
+    blocks.GetMetaData(i).Set(vtkCompositeDataSet.NAME(), name)
+check(write(blocks, "blocks.exr", lambda w: w.SetArrayPixelType("Z", 0), TileSize=16) == 0,
+      "composite data")
+check((read("blocks.exr", PartName="beauty")[0]["RGB"] == rgb).all()
+      and np.abs(read("blocks.exr", PartName="data")[0]["Z"] - depth).max() <= 0.13,
+      "blocks are parts")
+blocks.GetMetaData(1).Set(vtkCompositeDataSet.NAME(), "beauty")
+check(write(blocks, "twice.exr") < 0 and not os.path.exists(os.path.join(FOLDER, "twice.exr")),
+      "two parts of one name")
+blocks.SetBlock(1, vtkPolyData())
+check(write(blocks, "twice.exr") < 0, "a block that is no image")
+check(write(vtkMultiBlockDataSet(), "twice.exr") < 0, "no block at all")
+
+# DWA: the level counts.
+waves = (2 + np.sin(0.3 * np.arange(n))).astype(np.float32)
+sizes = []
+for level in (0, 45, 1000):
+    check(write(image(RGB=np.repeat(waves[:, None], 3, 1)), "dwa.exr", PixelType=0, Compression=8,
+                DwaCompressionLevel=level) == 0, "DWAA")
+    sizes.append(os.path.getsize(os.path.join(FOLDER, "dwa.exr")))
+check(sizes[0] >= sizes[1] >= sizes[2] and sizes[0] > sizes[2], "a level packs more: %s" % sizes)
+
+# Colours by the file's chromaticities.
+xyz = [1, 0, 0, 1, 0, 0, 1 / 3, 1 / 3]
+check(write(image(RGB=np.tile(np.float32([0.9505, 1, 1.089]), (n, 1))), "xyz.exr",
+            Chromaticities=xyz) == 0, "other chromaticities")
+arrays, output, _ = read("xyz.exr", ColorSpace=1)
+check(np.abs(arrays["RGB"] - 1).max() < 1e-3, "D65 is white in Rec.709")
+check(np.allclose(field(output, "chromaticities"),
+                  [0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329]), "and says so")
+check((read("xyz.exr")[0]["RGB"][0] == np.float32([0.9505, 1, 1.089])).all(), "or as stored")
+
 # What is wrong is told, and nothing is written.
 bad = depth.copy()
 bad[40] = np.nan
@@ -206,6 +282,15 @@ shared = os.path.join(os.environ["RADIOMETRY_SHARED_DATA"], "exr")
 if os.path.isdir(shared):
     arrays, _, _ = read(os.path.join(shared, "Chromaticities", "Rec709_YC.exr"))
     check(set(arrays) == {"RGB"}, "luminance and chroma are read as RGB")
+    looks = {}
+    for name in ("Rec709", "Rec709_YC", "XYZ", "XYZ_YC"):
+        looks[name] = read(os.path.join(shared, "Chromaticities", name + ".exr"),
+                           ColorSpace=1)[0]["RGB"]
+    for name, most in (("XYZ", 1e-3), ("Rec709_YC", 0.03), ("XYZ_YC", 0.03)):
+        off = np.abs(looks[name] - looks["Rec709"]).mean() / np.abs(looks["Rec709"]).mean()
+        check(off < most, "%s looks like Rec709: %g" % (name, off))
+    _, output, errors = read(os.path.join(shared, "Trunks.exr"))
+    check(errors > 0 and output.GetNumberOfPoints() == 0, "deep data are refused")
     arrays, output, errors = read(os.path.join(shared, "TestImages", "AllHalfValues.exr"))
     check(errors == 0 and np.isnan(arrays["RGB"]).any(), "NaN of a real file")
 else:
