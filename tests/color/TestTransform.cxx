@@ -116,6 +116,75 @@ TEST(Transform, DisplayP3IsItsPrimariesAndTheSrgbCurve)
   ExpectNear(Show("Display P3", "Plain", rgb), expected, 2e-6);
 }
 
+TEST(Transform, TheSrgbCurveIsThatOfTheStandard)
+{
+  // IEC 61966-2-1: 12.92 x up to 0.0031308. OpenColorIO's two parts meet a little earlier, with equal
+  // slopes; the curves are at most 1.1e-5 apart, a 350th of an 8-bit step.
+  double worst = 0;
+  for (int i = 0; i <= 1000; ++i)
+  {
+    const float x = 1e-5f * static_cast<float>(i);
+    const double standard = x <= 0.0031308f ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    worst = std::max(worst, std::abs(Show("sRGB", "Plain", { x, x, x })[1] - standard));
+  }
+  EXPECT_LT(worst, 1.3e-5);
+}
+
+TEST(Transform, EverySourceOnEveryDisplayIsMatrixAndCurve)
+{
+  const struct
+  {
+    const char* Name;
+    Primaries Own;
+    bool Encoded;
+  } sources[] = { { "Linear Rec.709", Primaries::Rec709(), false },
+    { "ACEScg", Primaries::ACES_AP1(), false }, { "ACES2065-1", Primaries::ACES_AP0(), false },
+    { "sRGB Texture", Primaries::Rec709(), true } };
+  const struct
+  {
+    const char* Name;
+    Primaries Own;
+    bool Power;
+  } displays[] = { { "sRGB", Primaries::Rec709(), false },
+    { "Rec.1886", Primaries::Rec709(), true }, { "Display P3", Primaries::DisplayP3(), false } };
+  const auto linear = [](double v) {
+    return v <= 0.0392857 ? v / 12.923210180787857 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  for (const auto& source : sources)
+  {
+    for (const auto& display : displays)
+    {
+      const Matrix3 m = RgbToRgb(source.Own, display.Own);
+      // 5.0 is more than any display shows; it is not clipped.
+      for (const Colour& rgb : { Colour{ 0.5f, 0.4f, 0.3f }, Colour{ 5.0f, 4.0f, 4.5f } })
+      {
+        std::array<double, 3> expected{};
+        for (int i = 0; i < 3; ++i)
+        {
+          for (int k = 0; k < 3; ++k)
+          {
+            expected[i] += m[3 * i + k] * (source.Encoded ? linear(rgb[k]) : double(rgb[k]));
+          }
+          expected[i] = display.Power ? std::pow(expected[i], 1 / 2.4) : SrgbCurve(expected[i]);
+        }
+        TransformOptions options;
+        options.SourceColorSpace = source.Name;
+        options.Display = display.Name;
+        options.View = "Plain";
+        ExpectNear(Convert(Own(), options, rgb), expected, 4e-6 * std::max(1.0, expected[0]));
+      }
+    }
+  }
+}
+
+TEST(Transform, NegativeLightIsMirroredOrCut)
+{
+  // OpenColorIO continues the curve of sRGB linearly below 0, and cuts a power law off.
+  ExpectNear(Show("sRGB", "Plain", { -0.5f, 0.5f, 0.5f }),
+    { -0.5 * 12.923210180787857, SrgbCurve(0.5), SrgbCurve(0.5) }, 2e-5);
+  EXPECT_EQ(Show("Rec.1886", "Plain", { -0.5f, -0.5f, -0.5f })[0], 0.0f);
+}
+
 TEST(Transform, OwnMatricesAgreeWithOpenColorIOs)
 {
   const Matrix3 m = RgbToRgb(Primaries::ACES_AP1(), Primaries::Rec709());
