@@ -146,6 +146,7 @@ TEST_F(Pass, AgreesWithTheCpuOnConfigsWithLuts)
               "displays:\n  screen:\n"
               "    - !<View> {name: trilinear, colorspace: trilinear}\n"
               "    - !<View> {name: tetrahedral, colorspace: tetrahedral}\n"
+              "    - !<View> {name: inverse, colorspace: inverse}\n"
               "colorspaces:\n  - !<ColorSpace> {name: lin}\n";
     for (const char* kind : { "trilinear", "tetrahedral" })
     {
@@ -155,23 +156,25 @@ TEST_F(Pass, AgreesWithTheCpuOnConfigsWithLuts)
              << "        - !<FileTransform> {src: wobble.cube, interpolation: "
              << (kind[1] == 'r' ? "linear" : "tetrahedral") << "}\n";
     }
+    config << "  - !<ColorSpace>\n    name: inverse\n    from_scene_reference: !<FileTransform> "
+              "{src: curve.spi1d, interpolation: linear, direction: inverse}\n";
   }
   const std::string file = folder + "/luts.ocio";
   const auto config = color::ColorConfig::Open(file);
   auto field = ManyColours();
   this->Display->SetConfigFileName(file.c_str());
   this->Display->SetSourceColorSpace("lin");
-  for (const char* view : { "trilinear", "tetrahedral" })
+  for (const std::string view : { "trilinear", "tetrahedral", "inverse" })
   {
     const color::TransformOptions options{ "lin", "", "screen", view, "", 0 };
     const color::ColorTransform transform(config, options);
-    EXPECT_EQ(transform.Shader("f", "p_").Textures.size(), 2u);
+    EXPECT_EQ(transform.Shader("f", "p_").Textures.size(), view == "inverse" ? 1u : 2u);
     auto expected = field;
     transform.Apply(expected.data(), size * size, 4);
-    this->Display->SetView(view);
+    this->Display->SetView(view.c_str());
     const double worst = Worst(this->ShowField(field), expected);
     std::cout << view << ": " << worst << "\n";
-    EXPECT_LE(worst, 2e-5) << view;
+    EXPECT_LE(worst, 5e-6) << view;
     EXPECT_EQ(this->Display->GetErrorMessage(), "");
   }
 }
