@@ -51,7 +51,7 @@ def capture(view, name="capture.exr"):
     return read(vtkOpenEXRReader(), path)
 
 
-def new_view(kind="RadiometricView", scene=True):
+def new_view(kind="RadiometricView", scene=True, others=True):
     view = pv.CreateView(kind)
     view.ViewSize = SIZE
     view.OrientationAxesVisibility = 0
@@ -59,7 +59,7 @@ def new_view(kind="RadiometricView", scene=True):
     view.BackgroundColorMode = "Single Color"
     view.Background = [0.1, 0.2, 0.3]
     if scene:
-        view_scene.make_scene(view)
+        view_scene.make_scene(view, others)
         pv.Render(view)
     return view
 
@@ -80,24 +80,6 @@ def converted(linear, display="", view="", exposure=0.0, config=""):
     change.Update()
     result = change.GetOutput().GetPointData().GetScalars()
     return vtk_to_numpy(result).reshape(linear.shape)
-
-
-def pure_light(linear, shown, background=(26, 51, 77)):
-    """Where nothing but opaque light is seen: not the false-coloured column, not the legend."""
-    alike = np.ones(shown.shape[:2], bool)
-    view = new_view()
-    with_column = picture(view)
-    for source in list(pv.GetSources().values()):
-        if "Elevation" in source.GetXMLName() or "PointLight" in source.GetXMLName():
-            display = pv.GetDisplayProperties(source, view)
-            if "Elevation" in source.GetXMLName():
-                display.SetScalarBarVisibility(view, False)
-                pv.Hide(source, view)
-            else:
-                display.LightGlyphSize = 0
-    alike &= (picture(view) == with_column).all(axis=2)
-    pv.Delete(view)
-    return alike & (linear[:, :, 3] == 1)
 
 
 def errors_of(action):
@@ -139,11 +121,10 @@ def test_the_panel_lists_what_the_config_has():
 
 
 def test_light_is_shown_as_the_cpu_converts_it():
-    view = new_view()
-    shown = picture(view)
+    view = new_view(others=False)
     linear = capture(view)["RGBA"]
-    seen = pure_light(linear, shown)
-    assert seen.mean() > 0.15
+    seen = linear[:, :, 3] == 1
+    assert seen.mean() > 0.1, seen.mean()
     for settings in (("", "", 0), ("sRGB", "ACES", 1.0), ("Rec.1886", "Plain", -2.5),
                      ("Display P3", "ACES", -1.0), ("sRGB", "Raw", 0)):
         view.Display, view.View = (name or "Default" for name in settings[:2])
@@ -173,28 +154,25 @@ def test_false_colours_legend_and_background_are_the_render_views():
         light.Exposure = -3
         light.View = "ACES"
         a, b = picture(plain), picture(light)
-        assert np.array_equal(a[:, :20], b[:, :20])  # background only
         same = (a == b).all(axis=2)
         # Everything but what is light (the sphere and the plane).
         rgba = capture(light)["RGBA"]
         assert same[rgba[:, :, 3] == 0].all()
-        # The column stands before the sphere in part.
-        assert same[rgba[:, :, 3] > 0].sum() > 100
+        # The column and the legend stand before light in part; letters let some of it through.
+        before = (rgba[:, :, 3] > 0) & (np.ptp(b, axis=2) > 60)
+        assert same[before].mean() > 0.8 and before.sum() > 100, (same[before].mean(), before.sum())
         assert not same.all()
         pv.Delete(plain)
         pv.Delete(light)
 
 
 def test_skybox_and_environment_background_stay():
-    from vtkmodules.vtkImagingSources import vtkImageSinusoidSource  # noqa: F401
-
     plain, light = new_view("RenderView"), new_view()
-    texture = pv.CreateTexture(make_texture())
     for view in (plain, light):
         view.UseFXAA = 0
         view.BackgroundColorMode = "Skybox"
         view.UseEnvironmentLighting = 0
-        view.BackgroundTexture = texture
+        view.BackgroundTexture = pv.CreateTexture(make_texture())
     light.Exposure = -4
     a, b = picture(plain), picture(light)
     rgba = capture(light)["RGBA"]
@@ -255,19 +233,17 @@ def test_two_views_of_two_displays():
 
 
 def test_screenshots_in_tiles():
-    view = new_view()
+    view = new_view(others=False)
+    view.View = "ACES"
     big = [3 * SIZE[0], 3 * SIZE[1]]
     tiles = picture(view, big)
     view.ViewSize = big
     whole = picture(view, big)
     view.ViewSize = SIZE
-    # Fonts and line widths scale with the picture; light does not.
-    different = np.abs(tiles - whole).max(axis=2) > 2
-    assert tiles.shape == whole.shape
-    assert different.mean() < 0.05, different.mean()
-    floor = (slice(90, 130), slice(270, 400))
-    assert np.abs(tiles[floor] - whole[floor]).max() <= 1
-    assert np.ptp(tiles[floor]) > 10
+    assert tiles.shape == whole.shape and np.ptp(whole) > 200
+    different = np.abs(tiles - whole).max(axis=2)
+    # A silhouette may move by a pixel: the projection of a tile rounds otherwise.
+    assert (different > 1).mean() < 1e-3, (different > 1).mean()
 
 
 def test_selection():
@@ -291,7 +267,7 @@ def test_camera_and_light_move_the_picture():
     lamp = pv.PointLight(Position=[0, 0, 1], Intensity=np.pi)
     shown = pv.Show(lamp, view)
     assert shown.Representation == "Radiometric Lights"
-    shown.LightGlyphSize = 0
+    shown.ShowGlyphs = 0
     view.CameraPosition, view.CameraFocalPoint = [0, 0, 4], [0, 0, 0]
     linear = capture(view)
     row, column = SIZE[1] // 2, SIZE[0] // 2
@@ -331,7 +307,7 @@ def test_a_capture_says_how_it_was_made():
     assert notes["units"].GetValue(0) == "W/(m^2 sr)"
     assert notes["colorSpace"].GetValue(0) == "ACEScg"
     assert notes["displayExposure"].GetTuple1(0) == 1.5
-    assert np.allclose(notes["cameraPosition"].GetTuple3(0), view.CameraPosition)
+    assert np.allclose(vtk_to_numpy(notes["cameraPosition"]).ravel(), view.CameraPosition)
     assert notes["cameraViewAngle"].GetTuple1(0) == view.CameraViewAngle
     chromaticities = vtk_to_numpy(notes["chromaticities"]).ravel()
     assert np.allclose(chromaticities[:2], [0.713, 0.293])  # the red of AP1
@@ -342,10 +318,10 @@ def test_a_capture_says_how_it_was_made():
 
 
 def test_configs_by_environment_and_broken_ones():
-    view = new_view()
+    view = new_view(others=False)
     good = picture(view)
     linear = capture(view)["RGBA"]
-    seen = pure_light(linear, good)
+    seen = linear[:, :, 3] == 1
 
     def break_it(name):
         view.ConfigFileName = name
@@ -388,34 +364,31 @@ def test_toggles_of_the_render_view_do_no_harm():
     assert np.array_equal(picture(view), good)
     view.UseToneMapping = 1
     assert np.array_equal(picture(view), good)
-    view.UseSSAO = 1
+    view.UseAmbientOcclusion = 1
     shaded = picture(view)
     rgba = capture(view)["RGBA"]
     assert (shaded == good).all(axis=2).mean() > 0.8
     assert rgba[:, :, 3].max() == 1
-    view.UseSSAO = 0
+    view.UseAmbientOcclusion = 0
     view.HiddenLineRemoval = 1
     assert np.array_equal(picture(view), good)
     view.HiddenLineRemoval = 0
     view.CameraParallelProjection = 1
     assert picture(view).std() > 10
     view.CameraParallelProjection = 0
-    view.StereoType, view.StereoRender = "Red-Blue", 1
-    assert picture(view).std() > 10
-    view.StereoRender = 0
     errors_of(lambda: (setattr(view, "EnableRayTracing", 1), pv.Render(view)))
     errors_of(lambda: (setattr(view, "EnableRayTracing", 0), pv.Render(view)))
     assert np.array_equal(picture(view), good)
+    view.StereoType, view.StereoRender = "Red-Blue", 1
+    assert picture(view).std() > 10
 
 
 def test_an_ordinary_render_view_is_as_before():
-    view = new_view("RenderView")
-    linear_view = new_view()
+    view = new_view("RenderView", others=False)
     view.UseFXAA = 0
-    linear = capture(linear_view)["RGBA"]
-    shown = picture(view)
-    seen = pure_light(linear, shown)
-    assert np.abs(shown - 255 * np.clip(linear[:, :, :3], 0, 1))[seen].max() <= 1
+    linear = capture(new_view(others=False))["RGBA"]
+    expected = 255 * np.clip(linear[:, :, :3], 0, 1)
+    assert np.abs(picture(view) - expected)[linear[:, :, 3] == 1].max() <= 0.51
 
 
 pv.LoadPlugin(view_scene.PLUGIN, remote=False, ns=vars(pv))

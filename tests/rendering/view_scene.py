@@ -23,21 +23,28 @@ def shown(source, view, **properties):
     return display
 
 
-def make_scene(view):
+pv._DisableFirstRenderCameraReset()
+
+
+def make_scene(view, others=True):
+    """Two lit surfaces under a lamp; with others a false-coloured column, its legend, the lamp drawn."""
     shown(pv.Sphere(ThetaResolution=40, PhiResolution=40), view,
                    DiffuseColor=[0.9, 0.5, 0.2], Specular=0.3)
     shown(pv.Plane(Origin=[-1, -1, -0.6], Point1=[1, -1, -0.6], Point2=[-1, 1, -0.6],
                    XResolution=8, YResolution=8), view, DiffuseColor=[0.8, 0.8, 0.8])
-    # A false-coloured body that stands in the sphere.
-    column = pv.Elevation(Input=pv.Cylinder(Resolution=24, Height=1.6, Radius=0.15,
-                                            Center=[0.3, 0, 0]),
-                          LowPoint=[0, -0.8, 0], HighPoint=[0, 0.8, 0])
-    coloured = pv.Show(column, view)
-    coloured.Representation = "Surface"
-    pv.ColorBy(coloured, ("POINTS", "Elevation"))
-    coloured.SetScalarBarVisibility(view, True)
+    if others:
+        # A false-coloured body that stands in the sphere.
+        column = pv.Elevation(Input=pv.Cylinder(Resolution=24, Height=1.6, Radius=0.15,
+                                                Center=[0.3, 0, 0]),
+                              LowPoint=[0, -0.8, 0], HighPoint=[0, 0.8, 0])
+        coloured = pv.Show(column, view)
+        coloured.Representation = "Surface"
+        pv.ColorBy(coloured, ("POINTS", "Elevation"))
+        coloured.SetScalarBarVisibility(view, True)
     lamp = pv.PointLight(Position=[1, -1, 1], Intensity=9.0)
-    pv.Show(lamp, view).LightGlyphSize = 0.2
+    drawn = pv.Show(lamp, view)
+    drawn.LightGlyphSize = 0.2
+    drawn.ShowGlyphs = int(others)
     view.CameraPosition = [2, -3, 2]
     view.CameraFocalPoint = [0, 0, -0.1]
     view.CameraViewUp = [0, 0, 1]
