@@ -2,6 +2,7 @@
 #include "radiometry/irradiance/OutgoingRadiance.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/Highlights.h"
 #include "radiometry/visibility/PointStarts.h"
 
 #include <algorithm>
@@ -97,7 +98,11 @@ public:
     SampleSets sets(this->Bands);
     std::vector<double> known(receiver.Known ? this->Lights : 0);
     std::copy_n(receiver.Known, known.size(), known.begin());
-    std::int64_t rays = 0;
+    std::int64_t rays = this->AddLights(receiver, known, values, errors);
+    if (!(this->Tracer.GreatestRadiance() > 0.0) && this->Tracer.AllBeams().empty())
+    {
+      return rays; // nothing else to be seen
+    }
     std::uint32_t done = 0;
     std::vector<double> mean(this->Bands), error(this->Bands);
     for (std::uint32_t each = FewestSamples; each <= most; each *= 2)
@@ -111,8 +116,7 @@ public:
         {
           const auto at = places(k);
           RadianceNumbers numbers{ lobes(k), panels(k), Hash64(Hash64(receiver.Key, s), k) };
-          rays += this->AddOne(receiver, at, numbers, known.empty() ? nullptr : known.data(),
-            sets.Sum(s), sets.Doubt(s));
+          rays += this->AddOne(receiver, at, numbers, sets.Sum(s), sets.Doubt(s));
         }
       }
       done = each;
@@ -143,6 +147,32 @@ public:
   }
 
 private:
+  /// Highlights.
+  std::int64_t AddLights(const Receiver& receiver, const std::vector<double>& known, double* values,
+    double* errors) const
+  {
+    HighlightEffort effort;
+    effort.Relative = 0.5 * this->Options.RelativeTolerance;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      effort.Allowed.push_back(0.5 *
+        std::max(this->Options.AbsoluteTolerance, this->Options.RelativeTolerance * values[b]) /
+        static_cast<double>(std::max<std::size_t>(1, this->Tracer.AllBeams().size())));
+    }
+    std::int64_t rays = 0;
+    for (const Piece& piece : receiver.Pieces)
+    {
+      RadianceTracer::Place place;
+      place.End = { piece.Corners[0], piece.Triangle };
+      place.Normal = piece.Normal;
+      place.Cell = piece.Cell;
+      place.Front = piece.Front;
+      place.Known = piece.Front && !known.empty() ? known.data() : nullptr; // known of fronts
+      rays += AddHighlights(this->Tracer, this->Eye, piece.Corners, place, piece.Share, effort,
+        values, errors);
+    }
+    return rays;
+  }
   double GreatestShare(const Receiver& receiver, std::size_t band) const
   {
     double most = 0.0;
@@ -154,7 +184,7 @@ private:
     return most;
   }
   std::int64_t AddOne(const Receiver& receiver, const std::array<double, 4>& at,
-    const RadianceNumbers& numbers, const double* known, double* sum, double* doubt) const
+    const RadianceNumbers& numbers, double* sum, double* doubt) const
   {
     // The piece by its share; what is left of the number is used again.
     double u = at[0];
@@ -171,7 +201,6 @@ private:
       place.Cell = piece.Cell;
       place.Front = piece.Front;
       place.Toward = this->Eye.Toward(place.End.Point);
-      place.Known = piece.Front ? known : nullptr; // known of fronts
       return Dot(place.Toward, place.Normal) > 0.0
         ? this->Tracer.AddSample(place, numbers, sum, doubt)
         : 0;

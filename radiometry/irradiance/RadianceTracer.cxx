@@ -364,55 +364,45 @@ double RadianceTracer::PanelDensity(const Panel& panel, const Vec3& way) const
                       : std::numeric_limits<double>::infinity();
 }
 
-void RadianceTracer::AddBeams(Walk& walk, bool first) const
+/// The highlight of one light, chosen at random, at a place that is seen by reflection.
+void RadianceTracer::AddBeams(Walk& walk) const
 {
+  if (this->Beams.empty())
+  {
+    return;
+  }
   const Place& at = walk.At;
-  const double exponent = this->Exponent(at.Cell, at.Front);
-  const auto add = [&](const Beam& beam, double weight) {
-    const Light& light = beam.Flux->GetLight();
-    const Vec3 in = beam.Flux->Directional() ? -light.Direction
-                                             : Normalized(light.Position - at.End.Point);
-    const double f = this->Lobe(at, exponent, in);
-    const double e = f > 0.0 ? beam.Flux->AtPoint(at.End.Point, at.Normal) : 0.0;
-    if (!(e * f > 0.0))
-    {
-      return;
-    }
-    const double known = first && at.Known ? at.Known[beam.Index] : 0.5;
-    const bool ask = this->Effects.Occlusion && known > 0.0 && known < 1.0;
-    if (known <= 0.0 && this->Effects.Occlusion)
-    {
-      return;
-    }
-    walk.Passed.assign(this->Bands, 1.0);
-    if (ask && beam.Shadow->Transmits())
+  const auto count = static_cast<double>(this->Beams.size());
+  const Beam& beam = this->Beams[std::min(
+    this->Beams.size() - 1, static_cast<std::size_t>(Uniform(walk.State) * count))];
+  const Light& light = beam.Flux->GetLight();
+  const Vec3 in =
+    beam.Flux->Directional() ? -light.Direction : Normalized(light.Position - at.End.Point);
+  const double f = this->Lobe(at, this->Exponent(at.Cell, at.Front), in);
+  const double e = f > 0.0 ? beam.Flux->AtPoint(at.End.Point, at.Normal) : 0.0;
+  if (!(e * f > 0.0))
+  {
+    return;
+  }
+  walk.Passed.assign(this->Bands, 1.0);
+  if (this->Effects.Occlusion)
+  {
+    ++walk.Rays;
+    if (beam.Shadow->Transmits())
     {
       beam.Shadow->Passing(at.End, walk.Passed.data());
     }
-    else if (ask && beam.Shadow->Hidden(at.End))
+    else if (beam.Shadow->Hidden(at.End))
     {
-      ++walk.Rays;
       return;
     }
-    walk.Rays += ask ? 1 : 0;
-    for (std::size_t b = 0; b < this->Bands; ++b)
-    {
-      walk.Add(b,
-        weight * this->Reflectance(at.Cell, at.Front, b) * f * e * light.Intensity[b] *
-          walk.Passed[b]);
-    }
-  };
-  if (first || this->Beams.size() <= 4)
-  {
-    for (const Beam& beam : this->Beams)
-    {
-      add(beam, 1.0);
-    }
-    return;
   }
-  const auto count = static_cast<double>(this->Beams.size());
-  const double u = Uniform(walk.State);
-  add(this->Beams[std::min(this->Beams.size() - 1, static_cast<std::size_t>(u * count))], count);
+  for (std::size_t b = 0; b < this->Bands; ++b)
+  {
+    walk.Add(b,
+      count * this->Reflectance(at.Cell, at.Front, b) * f * e * light.Intensity[b] *
+        walk.Passed[b]);
+  }
 }
 
 void RadianceTracer::AddPanelSample(Walk& walk, const std::array<double, 4>& u) const
@@ -591,7 +581,6 @@ std::int64_t RadianceTracer::AddSample(
         }
         if (lobe && first)
         {
-          this->AddBeams(walk, true);
           this->AddPanelSample(walk, numbers.Panel);
         }
         const double factor = this->Bounce(at, u, walk.Way, walk.Density);
@@ -633,7 +622,7 @@ std::int64_t RadianceTracer::AddSample(
       }
       if (reflected > 0.0 && this->Exponent(walk.At.Cell, walk.At.Front) < MirrorShininess)
       {
-        this->AddBeams(walk, false);
+        this->AddBeams(walk);
         this->AddPanelSample(walk,
           { Uniform(walk.State), Uniform(walk.State), Uniform(walk.State), Uniform(walk.State) });
       }

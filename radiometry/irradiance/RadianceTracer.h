@@ -40,7 +40,7 @@ struct RadianceNumbers
 /// Radiance along a ray, and what a lobe or pane sends on of it.
 ///   Model   L = B/pi where the ray ends + what is reflected by the lobe of scene/Reflectance.h
 ///           and transmitted straight there, over any number of mirrors and panes
-///   Lights  of point, spot and directional lights f E with one shadow ray each; area lights and
+///   Lights  of point, spot and directional lights f E with one shadow ray; area lights and
 ///           emitting surfaces by the balance heuristic of a point on them and the lobe's direction;
 ///           skies where rays meet nothing. A perfect mirror shows no light without an area
 ///   Noise   unbiased, but for paths that are cut after 1000 reflections
@@ -65,7 +65,7 @@ public:
   /// True where a side of a cell reflects specularly or lets light through.
   bool Calls(std::int32_t cell, bool front) const;
 
-  /// Adds one sample of what the place sends on to `radiance` [W/(m^2 sr), bands], and to `doubt`
+  /// Adds one sample of what the place sends on, but for highlights of lights (Highlights.h), to `radiance` [W/(m^2 sr), bands], and to `doubt`
   /// the part of it that errors of the diffuse light make. Returns the rays traced.
   std::int64_t AddSample(
     const Place& place, const RadianceNumbers& numbers, double* radiance, double* doubt) const;
@@ -78,18 +78,21 @@ public:
   bool Sends(std::int32_t cell, bool front) const;
   /// The greatest radiance of surfaces, area lights and skies, any band.
   double GreatestRadiance() const { return this->Greatest; }
-  std::size_t BeamCount() const { return this->Beams.size(); }
-  /// Greatest irradiance of point, spot and directional lights, no cosine, anywhere within `radius` of
-  /// a place, any band; infinite where one may be there.
-  double GreatestBeams(const Vec3& center, double radius) const;
-
-private:
+  /// A light that reaches a place from one direction.
   struct Beam
   {
     std::unique_ptr<SourceFlux> Flux;
     std::unique_ptr<ShadowCutter> Shadow;
     std::size_t Index; // among the scene's lights
   };
+  const std::vector<Beam>& AllBeams() const { return this->Beams; }
+  const RadianceEffects& Follows() const { return this->Effects; }
+  double Exponent(std::int32_t cell, bool front) const;
+  /// Greatest irradiance of point, spot and directional lights, no cosine, anywhere within `radius` of
+  /// a place, any band; infinite where one may be there.
+  double GreatestBeams(const Vec3& center, double radius) const;
+
+private:
   struct Panel
   {
     Triangle3 Corners;
@@ -109,11 +112,10 @@ private:
   double Bounce(const Place& at, const std::array<double, 4>& u, Vec3& direction,
     double& density) const;
   double PanelDensity(const Panel& panel, const Vec3& way) const;
-  void AddBeams(Walk& walk, bool first) const;
+  void AddBeams(Walk& walk) const;
   void AddPanelSample(Walk& walk, const std::array<double, 4>& u) const;
   bool Follow(Walk& walk) const;
   void AddSky(Walk& walk) const;
-  double Exponent(std::int32_t cell, bool front) const;
 
   const Scene& Geometry;
   const OcclusionScene& Occluders;
