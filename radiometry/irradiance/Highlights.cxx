@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr std::size_t MostParts = 400;
-constexpr int MostHalvings = 60;
+constexpr int MostHalvings = 80; // some ten parts each two
 /// A part is no larger than so many widths of the lobe, or distances from its middle.
 constexpr double PartWidths = 2.0;
 constexpr double PartDistances = 1.0;
@@ -208,12 +208,22 @@ void HalveTriangle(const Triangle3& t, Triangle3 halves[2])
   halves[1] = { middle, b, c };
 }
 
-/// No nearer than this is a point of the triangle to `p`.
-double DistanceBound(const Triangle3& t, const Vec3& p)
+/// Of a point in its plane from a triangle.
+double Distance(const Triangle3& t, const Vec3& p)
 {
-  std::size_t edge;
-  const double longest = LongestEdge(t, edge);
-  return std::max(0.0, Length(Centroid(t) - p) - 0.67 * longest);
+  const Vec3 n = AreaNormal2(t);
+  bool inside = true;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const Vec3 edge = t[(k + 1) % 3] - t[k];
+    const Vec3 way = p - t[k];
+    inside = inside && Dot(n, Cross(edge, way)) >= 0.0;
+    const double l2 = LengthSquared(edge);
+    const double at = l2 > 0.0 ? std::clamp(Dot(way, edge) / l2, 0.0, 1.0) : 0.0;
+    nearest = std::min(nearest, Length(way - at * edge));
+  }
+  return inside ? 0.0 : nearest;
 }
 
 /// Divides until parts are as small as the highlight is there.
@@ -222,8 +232,8 @@ void Divide(const Triangle3& corners, bool peaked, const Vec3& peak, double widt
 {
   std::size_t edge;
   const double size = LongestEdge(corners, edge);
-  if (!peaked || depth >= MostHalvings || parts.size() >= MostParts ||
-    size <= std::max(PartWidths * width, PartDistances * DistanceBound(corners, peak)))
+  if (!peaked || depth >= MostHalvings ||
+    size <= std::max(PartWidths * width, PartDistances * Distance(corners, peak)))
   {
     Part part;
     part.Corners = corners;
@@ -309,7 +319,6 @@ std::int64_t AddHighlights(const RadianceTracer& tracer, const Viewer& viewer,
         light.Look(part);
       }
       // What is small beside all that is allowed is not asked about: it counts as half lit.
-      std::vector<double> allowed(bands);
       double most = std::numeric_limits<double>::infinity(); // of the integral
       for (std::size_t b = 0; b < bands; ++b)
       {
@@ -324,7 +333,7 @@ std::int64_t AddHighlights(const RadianceTracer& tracer, const Viewer& viewer,
       const auto enough = [&](double integral) {
         return std::max(most, effort.Relative * integral);
       };
-      const double negligible = 0.2 * enough(open) / static_cast<double>(std::max<std::size_t>(1, parts.size()));
+      const double negligible = 0.2 * enough(open) / static_cast<double>(parts.size());
       for (Part& part : parts)
       {
         if (part.Integral > negligible)
@@ -337,13 +346,14 @@ std::int64_t AddHighlights(const RadianceTracer& tracer, const Viewer& viewer,
           part.Doubt = 0.5;
         }
       }
+      const std::size_t end = parts.size() + MostParts;
       std::make_heap(parts.begin(), parts.end());
       HighlightSum sum;
       for (;;)
       {
         Collect(parts, bands, sum);
         const double value = *std::max_element(sum.Values.begin(), sum.Values.end());
-        if (sum.RuleError + std::sqrt(sum.ShadowSquares) <= enough(value) || parts.size() >= MostParts)
+        if (sum.RuleError + std::sqrt(sum.ShadowSquares) <= enough(value) || parts.size() >= end)
         {
           break;
         }

@@ -23,7 +23,7 @@ struct HighlightEffort
 ///   Method   the triangle is divided about the place where the light is mirrored into the eye, down
 ///            to the width of the lobe there, so that no highlight is missed however small; then where
 ///            two rules (16 and 7 points) or four rays differ most, until the effort is met or 400
-///            pieces
+///            pieces are added
 ///   Error    differences of the rules, and where shadows end half the highlight of the piece
 ///   Cost     23 evaluations and 4 rays a light where the lobe is wider than the triangle
 /// Returns the rays.

@@ -186,6 +186,67 @@ TEST(OutgoingRadiance, CellAverageOfAHighlight)
   }
 }
 
+TEST(OutgoingRadiance, SmallHighlightOnALargeCell)
+{
+  // A spot of some centimetres on a floor of 40 m, one quadrilateral: against rings about its middle.
+  for (const double n : { 1000.0, 1e5 })
+  {
+    World world(Floor(40.0));
+    world.Gloss(0, 2, 0.4, n);
+    const Vec3 lamp{ 1.3, 0.4, 1.5 }, eye{ -0.5, -0.6, 0.7 };
+    world.AddPointLight(lamp, 5.0);
+    const Vec3 peak = eye + (0.7 / 2.2) * (Vec3{ lamp.x, lamp.y, -lamp.z } - eye);
+    double sum = 0.0;
+    constexpr int rings = 2000, spokes = 720;
+    const double reach = 20.0 / std::sqrt(n);
+    for (int i = 0; i < rings; ++i)
+    {
+      const double r = reach * (i + 0.5) / rings;
+      for (int j = 0; j < spokes; ++j)
+      {
+        const double psi = 2.0 * Pi * (j + 0.5) / spokes;
+        const Vec3 p = peak + r * Vec3{ std::cos(psi), std::sin(psi), 0.0 };
+        const Vec3 in = lamp - p;
+        const double r2 = LengthSquared(in);
+        sum += PhongLobeBrdf(0.4, n, { 0, 0, 1 }, Normalized(in), Normalized(eye - p)) * 5.0 * in.z /
+          (r2 * std::sqrt(r2)) * r * (reach / rings) * (2.0 * Pi / spokes);
+      }
+    }
+    RadianceOptions options;
+    options.RelativeTolerance = 1e-3;
+    const RadianceResult found = world.Cells(world.Eye(eye), options);
+    const double flux = 800.0 * (found.Values[0] + found.Values[1]);
+    EXPECT_NEAR(flux / sum, 1.0, 2e-3) << n;
+    EXPECT_LE(std::fabs(flux - sum), 800.0 * (found.Errors[0] + found.Errors[1]) + 1e-4 * sum) << n;
+    EXPECT_LT(found.Errors[0] + found.Errors[1], 0.01 * sum / 800.0) << n;
+  }
+}
+
+TEST(OutgoingRadiance, HalfAHighlightInShadow)
+{
+  // A wall's edge stands so that half of the highlight is dark: its value half of the whole one's.
+  double flux[2];
+  for (const bool wall : { false, true })
+  {
+    test::Mesh mesh = Floor(4.0);
+    if (wall)
+    {
+      mesh.AddGrid({ 0, -5, 0.5 }, { 5, 0, 0 }, { 0, 10, 0 }, 1, 1);
+    }
+    World world(mesh);
+    world.Gloss(0, 2, 0.4, 200.0);
+    world.AddPointLight({ 0, 0, 2 }, 5.0);
+    const RadianceResult found = world.Cells(world.Eye({ 0, 0, 0.4 }));
+    flux[wall ? 1 : 0] = found.Values[0] + found.Values[1];
+    EXPECT_GT(flux[wall ? 1 : 0], 0.0);
+    if (wall)
+    {
+      EXPECT_NEAR(flux[1], 0.5 * flux[0], found.Errors[0] + found.Errors[1] + 0.01 * flux[0]);
+      EXPECT_LT(found.Errors[0] + found.Errors[1], 0.1 * flux[1]);
+    }
+  }
+}
+
 TEST(OutgoingRadiance, UniformSurroundings)
 {
   // Every wall sends L0; the floor reflects a(theta) of it in its lobe.
