@@ -234,6 +234,7 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
   this->Superclass::BuildBufferObjects(ren, act);
   this->BuildMaterials(ren, act);
   this->BuildCellBuffers(ren, act);
+  this->BuildChoice(act);
   this->BuildFalseColor(ren, act);
   this->BuildVisibility(ren, act);
 }

@@ -209,20 +209,23 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     {
       // Directional lights on a diffuse surface with one normal a cell: nothing varies in a cell.
       const bool constant = this->ConstantInCells && !specular && !Has(needs, "Finite");
-      shading = constant ? vtkPhongGouraudMapper::GOURAUD : vtkPhongGouraudMapper::PHONG;
+      shading = constant ? vtkPhongGouraudMapper::GOURAUD : this->AutoUses;
+      this->AutoReason = constant ? "Gouraud: nothing varies within a cell" : this->AutoReason;
     }
     if (shading == vtkPhongGouraudMapper::GOURAUD && (!smooth || (materials && specular)))
     {
       shading = vtkPhongGouraudMapper::PHONG;
     }
-    need(lights && shading == vtkPhongGouraudMapper::GOURAUD, "PerVertex");
+    const bool mixed = shading == vtkPhongGouraudMapper::AUTO;
+    need(lights && (mixed || shading == vtkPhongGouraudMapper::GOURAUD), "PerVertex");
+    need(lights && mixed, "PerTriangle");
     need(lights && shading == vtkPhongGouraudMapper::FLAT, "PerCell");
-    need(lights && !Has(needs, "PerVertex"), "FragmentNormal");
+    const bool perPixel = lights && shading != vtkPhongGouraudMapper::GOURAUD;
+    need(perPixel, "FragmentNormal");
     need(lights && (Has(needs, "Finite") || Has(needs, "LocalViewer")), "Position");
-    const bool perPixel = Has(needs, "Position") && !Has(needs, "PerVertex");
-    need(perPixel && Has(needs, "PerCell"), "CellPosition");
-    need(perPixel && !Has(needs, "PerCell"), "FragmentPosition");
-    need(Has(needs, "LocalViewer") && !Has(needs, "PerVertex"), "FragmentViewer");
+    need(perPixel && Has(needs, "Position") && Has(needs, "PerCell"), "CellPosition");
+    need(perPixel && Has(needs, "Position") && !Has(needs, "PerCell"), "FragmentPosition");
+    need(perPixel && Has(needs, "LocalViewer"), "FragmentViewer");
     mapper->ShadingUsed = shading;
   }
   need(Has(needs, "ShowNormals"), "FragmentNormal");
@@ -317,6 +320,7 @@ void vtkPhongGouraudHelper::SetLightingShaderParameters(
   bind("radiometryLights", this->LightBuffer);
   bind("radiometryCellFrames", this->FrameBuffer);
   bind("radiometryField", this->FieldBuffer);
+  bind("radiometryShading", this->ShadingBuffer);
   bind("radiometryMaterials", this->MaterialBuffer);
   bind("radiometryMaterialOfCell", this->MaterialOfCellBuffer);
   bind("radiometryColorSteps", this->StepBuffer);
@@ -425,7 +429,8 @@ void vtkPhongGouraudHelper::PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectTo
   }
 }
 
-void vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren, vtkActor* act)
+vtkradiometry::CollectedLights vtkPhongGouraudHelper::CollectLights(
+  vtkRenderer* ren, vtkActor* act)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
   const auto model = static_cast<radiometry::ReflectionModel>(mapper->ReflectionModel);
@@ -451,23 +456,21 @@ void vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren, vtkActor* act)
     mapper->LightScale, mapper->MetersPerUnit);
   mapper->NumberOfLightsDrawn = this->Lights.Ranges[2][1];
   mapper->NumberOfLightsNotDrawn = collected.NotDrawn;
+  return collected;
 }
 
 //------------------------------------------------------------------------------
 // Drawing
 //------------------------------------------------------------------------------
-void vtkPhongGouraudHelper::RenderPiece(vtkRenderer* ren, vtkActor* act)
-{
-  this->Superclass::RenderPiece(ren, act);
-}
-
 void vtkPhongGouraudHelper::RenderPieceStart(vtkRenderer* ren, vtkActor* act)
 {
   this->Superclass::RenderPieceStart(ren, act);
   if (!ren->GetSelector())
   {
-    this->CollectLights(ren, act); // its coordinates are those of the buffers
+    // After the buffers: the lights' coordinates are theirs.
+    const vtkradiometry::CollectedLights collected = this->CollectLights(ren, act);
     this->AssignVisibility();
+    this->DecideShading(ren, act, collected);
     this->LightBuffer.Upload(ren, std::vector<float>(this->Lights.Texels));
     for (FloatBuffer* buffer : this->Buffers())
     {
@@ -481,6 +484,7 @@ void vtkPhongGouraudHelper::RenderPieceFinish(vtkRenderer* ren, vtkActor* act)
   this->Superclass::RenderPieceFinish(ren, act);
   if (!ren->GetSelector())
   {
+    this->ReportShading();
     for (FloatBuffer* buffer : this->Buffers())
     {
       buffer->Deactivate();

@@ -11,6 +11,7 @@
 
 #include "ColorSteps.h"
 #include "LightCollector.h"
+#include "ShadingChoice.h"
 #include "ShaderTemplate.h"
 
 #include "vtkPhongGouraudBase.h"
@@ -30,7 +31,6 @@ public:
   static vtkPhongGouraudHelper* New();
   vtkTypeMacro(vtkPhongGouraudHelper, vtkradiometry::HelperBase);
 
-  void RenderPiece(vtkRenderer* ren, vtkActor* act) override;
   void ReleaseGraphicsResources(vtkWindow* win) override;
 
 protected:
@@ -79,11 +79,11 @@ private:
   /// The blocks in the order in which they are drawn.
   std::vector<vtkradiometry::DrawnBlock*> Blocks() const;
 
-  std::array<FloatBuffer*, 8> Buffers()
+  std::array<FloatBuffer*, 9> Buffers()
   {
     return { { &this->LightBuffer, &this->FrameBuffer, &this->FieldBuffer, &this->MaterialBuffer,
       &this->MaterialOfCellBuffer, &this->StepBuffer, &this->CellColorBuffer,
-      &this->VisibilityBuffer } };
+      &this->VisibilityBuffer, &this->ShadingBuffer } };
   }
 
   vtkPhongGouraudMapper* Mapper() const;
@@ -93,8 +93,15 @@ private:
   bool UsesScalarColors();
   /// Everything that decides the text of the shaders.
   vtkradiometry::ShaderFeatures Needs(vtkRenderer* ren, vtkActor* act);
-  void CollectLights(vtkRenderer* ren, vtkActor* act);
+  vtkradiometry::CollectedLights CollectLights(vtkRenderer* ren, vtkActor* act);
   void PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectToWorld);
+  /// Shading Auto: the triangles to decide about, what they are lit by, and once a frame the choice.
+  void BuildChoice(vtkActor* act);
+  radiometry::ShadedScene SceneOf(
+    vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected);
+  void DecideShading(
+    vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected);
+  void ReportShading();
   void AppendField(vtkPolyData* block, bool newPoints);
   void BuildCellBuffers(vtkRenderer* ren, vtkActor* act);
   void BuildMaterials(vtkRenderer* ren, vtkActor* act);
@@ -152,6 +159,13 @@ private:
   bool SpecularMaterials = false; // some cell's material has a highlight
   bool EmittingMaterials = false; // ... gives light
   bool ConstantInCells = false; // one normal at all points of each cell
+
+  // Shading Auto
+  vtkradiometry::ShadingChoice Choice;
+  std::vector<std::size_t> ChoiceTexels; // where the flag of each of its triangles is
+  int AutoUses = 2;                      // PHONG, GOURAUD or AUTO: some triangles each
+  std::string AutoReason;
+  std::size_t ShadingVersion = 0; // the decision that ShadingBuffer holds
   // Of blocks in whose points others may share: the field they were drawn with.
   std::map<vtkDataArray*, vtkDataArray*> FieldOfShared;
 
@@ -175,6 +189,7 @@ private:
   FloatBuffer LightBuffer;
   FloatBuffer FrameBuffer;
   FloatBuffer FieldBuffer;
+  FloatBuffer ShadingBuffer; // a flag for each triangle, four a texel
   FloatBuffer MaterialBuffer;       // the materials
   FloatBuffer MaterialOfCellBuffer; // which one a triangle has
   FloatBuffer StepBuffer;           // of the colour map

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPhongGouraudMapper.h"
 
+#include "vtkLinearFloatPass.h"
 #include "vtkPhongGouraudHelper.h"
 
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkRenderPass.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <cmath>
 
 vtkStandardNewMacro(vtkPhongGouraudMapper);
 vtkInformationKeyRestrictedMacro(vtkPhongGouraudMapper, LIGHT_DATA, ObjectBase, "vtkDataObject");
@@ -33,6 +40,8 @@ void vtkPhongGouraudMapper::Render(vtkRenderer* renderer, vtkActor* actor)
     last->PopContext();
   }
   this->Window = window;
+  this->GouraudTriangles = 0.0;
+  this->CountedTriangles = 0.0;
   this->Superclass::Render(renderer, actor);
 }
 
@@ -57,8 +66,58 @@ void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)
     this->SetHighlights(own->Highlights);
     this->SetUseLightVisibility(own->UseLightVisibility);
     this->SetEveryEffect(own->EveryEffect);
+    this->SetShadingTolerance(own->ShadingTolerance);
+    this->SetShadingTimeShare(own->ShadingTimeShare);
   }
   this->Superclass::ShallowCopy(other);
+}
+
+double vtkPhongGouraudMapper::MeasureGreatestDifference(vtkRenderer* renderer)
+{
+  this->GreatestDifference = -1.0;
+  vtkRenderWindow* window = renderer ? renderer->GetRenderWindow() : nullptr;
+  if (!window)
+  {
+    return this->GreatestDifference;
+  }
+  const vtkSmartPointer<vtkRenderPass> pass = renderer->GetPass();
+  const int shading = this->Shading;
+  const double share = this->ShadingTimeShare;
+  vtkNew<vtkLinearFloatPass> target;
+  renderer->SetPass(target);
+  const auto draw = [&]() {
+    window->Render();
+    vtkImageData* color = target->GetColor();
+    vtkDataArray* values = color ? color->GetPointData()->GetScalars() : nullptr;
+    vtkSmartPointer<vtkDataArray> copy;
+    if (values)
+    {
+      copy.TakeReference(values->NewInstance());
+      copy->DeepCopy(values);
+    }
+    return copy;
+  };
+  this->SetShadingTimeShare(VTK_DOUBLE_MAX);
+  const vtkSmartPointer<vtkDataArray> given = draw();
+  this->SetShading(PHONG);
+  const vtkSmartPointer<vtkDataArray> phong = draw();
+  this->SetShading(shading);
+  this->SetShadingTimeShare(share);
+  renderer->SetPass(pass);
+  target->ReleaseGraphicsResources(window);
+  if (given && phong && given->GetNumberOfValues() == phong->GetNumberOfValues())
+  {
+    double most = 0.0;
+    for (vtkIdType i = 0; i < given->GetNumberOfTuples(); ++i)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        most = std::max(most, std::abs(given->GetComponent(i, c) - phong->GetComponent(i, c)));
+      }
+    }
+    this->GreatestDifference = most;
+  }
+  return this->GreatestDifference;
 }
 
 void vtkPhongGouraudMapper::SetShading(int shading)
@@ -159,6 +218,11 @@ void vtkPhongGouraudMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Highlights: " << this->Highlights << "\n";
   os << indent << "UseLightVisibility: " << this->UseLightVisibility << "\n";
   os << indent << "EveryEffect: " << this->EveryEffect << "\n";
+  os << indent << "ShadingTolerance: " << this->ShadingTolerance << "\n";
+  os << indent << "ShadingTimeShare: " << this->ShadingTimeShare << "\n";
+  os << indent << "GouraudShare: " << this->GetGouraudShare() << "\n";
+  os << indent << "ShadingReason: " << this->ShadingReason << "\n";
+  os << indent << "GreatestDifference: " << this->GreatestDifference << "\n";
   os << indent << "LightData: " << this->LightData.Get() << "\n";
   os << indent << "ShaderFeatures: " << this->ShaderFeatureText << "\n";
 }

@@ -31,6 +31,7 @@
 class vtkInformationObjectBaseKey;
 class vtkPolyData;
 class vtkRenderWindow;
+class vtkRenderer;
 
 class VTKRADIOMETRYRENDERING_EXPORT vtkPhongGouraudMapper : public vtkPhongGouraudMapperBase
 {
@@ -79,9 +80,10 @@ public:
    * Flat: once a cell, at its centre with its own normal, one colour for the whole cell.
    * Gouraud: at each vertex with the point's normal; the light is interpolated, then multiplied by
    * the material. Phong: at each pixel with the interpolated normal.
-   * Auto (default): Gouraud for the whole piece where the picture cannot differ from Phong because
-   * nothing of it varies within a cell, else Phong; GetShadingUsed() tells. Without point normals
-   * Gouraud and Phong use the cell's normal at each pixel.
+   * Auto (default): Gouraud for the triangles where a proven bound says that it cannot differ from
+   * Phong by more than ShadingTolerance, Phong for the others, and Phong for all where that is not
+   * slower (docs/rendering/mapper.md). Without point normals Gouraud and Phong use the cell's normal
+   * at each pixel.
    */
   void SetShading(int shading);
   vtkGetMacro(Shading, int);
@@ -91,10 +93,49 @@ public:
   void SetShadingToAuto() { this->SetShading(AUTO); }
   ///@}
 
+  ///@{
   /**
-   * FLAT, GOURAUD or PHONG: what the last frame was drawn with.
+   * Shading Auto: greatest difference from Phong shading that a triangle's Gouraud shading may have,
+   * in the unit of the colours that this mapper writes (after LightScale, before any display
+   * transform). Default 0.5/255, half a step of 8 bits where 1 is shown as white; a display of
+   * exposure x needs that over x. 0: only where both are the same.
+   */
+  vtkSetClampMacro(ShadingTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ShadingTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Shading Auto: share of the time between frames that deciding may take; until it is done, and
+   * while what it depends on changes from frame to frame, all is Phong. Default 0.03. 0: never
+   * decide. 1e6 and more: at once, before the frame, which makes pictures repeatable.
+   */
+  vtkSetClampMacro(ShadingTimeShare, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ShadingTimeShare, double);
+  ///@}
+
+  ///@{
+  /**
+   * What the last frame was drawn with. ShadingUsed: FLAT, GOURAUD or PHONG for all, AUTO for some
+   * triangles each; GouraudShare: share of the triangles for Gouraud; ShadingReason: why, in words.
    */
   vtkGetMacro(ShadingUsed, int);
+  double GetGouraudShare() const
+  {
+    return this->CountedTriangles > 0.0 ? this->GouraudTriangles / this->CountedTriangles : 0.0;
+  }
+  const char* GetShadingReason() { return this->ShadingReason.c_str(); }
+  ///@}
+
+  ///@{
+  /**
+   * Draws the renderer's window twice into float targets, as it is set and with Phong shading, and
+   * returns the greatest difference of any colour at any pixel; negative where it cannot. Shading
+   * Auto decides at once for it. The result is kept: GreatestDifference, negative before the first.
+   */
+  double MeasureGreatestDifference(vtkRenderer* renderer);
+  vtkGetMacro(GreatestDifference, double);
+  ///@}
 
   ///@{
   /**
@@ -315,10 +356,16 @@ protected:
   bool Highlights = true;
   bool UseLightVisibility = true;
   bool EveryEffect = false;
+  double ShadingTolerance = 0.5 / 255.0;
+  double ShadingTimeShare = 0.03;
+  double GreatestDifference = -1.0;
   vtkSmartPointer<vtkPolyData> LightData;
 
   vtkTimeStamp BufferTime;     // of the last change that needs other buffers
   vtkWeakPointer<vtkRenderWindow> Window; // that was drawn in last
+  double GouraudTriangles = 0.0; // of the last frame
+  double CountedTriangles = 0.0;
+  std::string ShadingReason;
   std::string ReportedProblem; // the defect in the lights that was reported last
   std::string VertexShaderText;
   std::string FragmentShaderText;

@@ -164,13 +164,16 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
     {
       vertex.insert("BothSides");
     }
+  }
+  if (Has(features, "PerVertex") && !Has(features, "PerTriangle"))
+  {
     fragment.erase("Lights");
     fragment.erase("Finite");
     fragment.erase("NeedsPower");
     fragment.erase("Spot");
     fragment.erase("NeedsNormal");
   }
-  else
+  if (!Has(features, "PerVertex"))
   {
     vertex.erase("Lights");
     vertex.erase("NeedsNormal");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/shading/ShadingBound.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -433,6 +436,27 @@ double ShadingBound(const LightingModel& model, const std::vector<DisplayLight>&
     }
   }
   return greatest;
+}
+
+void MarkGouraud(const ShadedScene& scene, const ShadedMesh& mesh, std::size_t begin,
+  std::size_t end, double tolerance, std::vector<float>& flags)
+{
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 256),
+    [&](const tbb::blocked_range<std::size_t>& range) {
+      for (std::size_t t = range.begin(); t < range.end(); ++t)
+      {
+        ShadedTriangle triangle;
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          const unsigned int point = mesh.Corners[3 * t + k];
+          triangle.Points[k] = mesh.Points[point];
+          triangle.Normals[k] = mesh.Normals[point];
+        }
+        const double bound = ShadingBound(scene.Model, scene.Lights, scene.Front, scene.Back,
+          scene.Eye, scene.Viewer, triangle, tolerance);
+        flags[t] = bound <= tolerance ? 1.0f : 0.0f;
+      }
+    });
 }
 
 } // namespace radiometry

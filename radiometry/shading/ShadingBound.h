@@ -40,4 +40,29 @@ double ShadingBound(const LightingModel& model, const std::vector<DisplayLight>&
   const DisplayMaterial& front, const DisplayMaterial& back, const Vec3& eye, const Vec3& viewer,
   const ShadedTriangle& triangle, double enough = std::numeric_limits<double>::infinity());
 
+/// What a surface is shaded with, beside its triangles.
+struct ShadedScene
+{
+  LightingModel Model;
+  std::vector<DisplayLight> Lights;
+  DisplayMaterial Front;
+  DisplayMaterial Back;
+  Vec3 Eye;
+  Vec3 Viewer{ 0.0, 0.0, 1.0 };
+};
+
+/// Triangles by the numbers of their points, three each; points and normals have equal numbers.
+struct ShadedMesh
+{
+  std::vector<Vec3> Points;
+  std::vector<Vec3> Normals;
+  std::vector<unsigned int> Corners;
+  std::size_t Size() const { return this->Corners.size() / 3; }
+};
+
+/// Sets flags[t] to 1 for the triangles t in [begin, end) whose ShadingBound is at most `tolerance`,
+/// to 0 for the others. On all threads; the result does not depend on their number.
+void MarkGouraud(const ShadedScene& scene, const ShadedMesh& mesh, std::size_t begin,
+  std::size_t end, double tolerance, std::vector<float>& flags);
+
 } // namespace radiometry

@@ -98,6 +98,11 @@
 //@end
 //@end
 //@if Lights
+//@if PerTriangle
+  int shadingOfTriangle = gl_PrimitiveID + PrimitiveIDOffset;
+  if (texelFetch(radiometryShading, shadingOfTriangle / 4)[shadingOfTriangle % 4] > 0.5)
+  {
+//@end
 //@if PerVertex
 //@if LightAmbient
   color += ambientColor * ambientLightVSOutput;
@@ -113,7 +118,13 @@
   color += specularColor * specularFrontVSOutput;
 //@end
 //@end
-//@else
+//@end
+//@if PerTriangle
+  }
+  else
+  {
+//@end
+//@if FragmentNormal
 //@if CellPosition
   vec3 P = MCLCMatrix * texelFetch(radiometryCellFrames, frame + 1).xyz;
 //@end
@@ -175,6 +186,9 @@
   color += specularColor * sums.specular;
 //@end
 //@end
+//@end
+//@if PerTriangle
+  }
 //@end
 //@if MaterialEmission
   color += texelFetch(radiometryMaterials, material + 2).rgb;

@@ -5,6 +5,10 @@
 uniform samplerBuffer radiometryCellFrames;
 uniform mat3 normalMatrix;
 //@end
+//@if PerTriangle
+// For each triangle that is drawn: 1 where the light of its corners is interpolated. Four a texel.
+uniform samplerBuffer radiometryShading;
+//@end
 //@if FragmentPosition
 in vec3 positionVSOutput;
 //@end

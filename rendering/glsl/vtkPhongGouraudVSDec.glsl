@@ -45,8 +45,10 @@ uniform mat3 MCLCMatrix;
 out vec3 positionVSOutput;
 //@end
 //@if PerVertex
+//@if !FragmentPosition
 //@if Position
 uniform mat3 MCLCMatrix;
+//@end
 //@end
 //@if Specular
 //@if LocalViewer
