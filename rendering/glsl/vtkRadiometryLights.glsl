@@ -37,14 +37,13 @@ struct LightSums
 //@if NeedsPower
 // max(1 - x, 0)^n; 0^0 is 1. Near x = 0, pow() would lose what n multiplies: the logarithm of a
 // number just below 1 is known to a rounding of 1 there. Its series in s = x/(2 - x) is known to a
-// rounding of itself: ln(1 - x) = -2 artanh(s), to 2e-8 of itself for x < 1/2.
+// rounding of itself: ln(1 - x) = -2 artanh(s), to 2e-8 of itself for x < 1/4.
 float powerOfOneMinus(float x, float n)
 {
   float s = x / (2.0 - x);
   float s2 = s * s;
-  float series = 1.0 / 9.0 + s2 * (1.0 / 11.0 + s2 / 13.0);
-  series = 1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0 + s2 * series)));
-  float power = exp(n * (x < 0.5 ? -2.0 * s * series : log(max(1.0 - x, 1e-37))));
+  float series = s * (-2.88539008 + s2 * (-0.961796694 + s2 * (-0.577078016 - 0.412198583 * s2)));
+  float power = exp2(n * (x < 0.25 ? series : log2(max(1.0 - x, 1e-37))));
   return x < 1.0 || n == 0.0 ? power : 0.0;
 }
 //@end
