@@ -16,7 +16,7 @@
 ///           window, from its lower left. Attributes become field data, with dataWindow and
 ///           displayWindow; "name.units" also the unit of the array (vtkDataArray::UNITS_LABEL).
 ///           The field data "name" and "view" are the part's.
-///   Model   luminance and chroma (Y, RY, BY; files of one part) become R, G, B; other sub-sampled
+///   Model   luminance and chroma (Y, RY, BY) become R, G, B; other sub-sampled
 ///           channels are repeated to full size. Colours are converted on request (ColorSpace)
 ///   Cost    the memory of the picture; more than MemoryLimit is an error before any is taken
 ///   Fails   no file, not OpenEXR, damaged or cut short, deep data, NaN or infinity when

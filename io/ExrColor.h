@@ -18,4 +18,13 @@ ExrChromaticities ChromaticitiesOf(const ExrPart& part);
 ///           without luminance, a value that is not finite)
 void ConvertToRec709(const std::string& fileName, ExrPart& part);
 
+/// Replaces luminance and chroma, channels Y, RY = (R - Y)/Y and BY = (B - Y)/Y, by R, G, B; parts
+/// without these three, or with an R, stay as they are.
+///   Model   R = (RY + 1) Y, B = (BY + 1) Y, G from Y as the chromaticities weigh it. Chroma of every
+///           second pixel or line is interpolated by six taps of a windowed sine (Lanczos, 3 lobes),
+///           of any other sampling repeated
+///   Writes  float samples
+///   Fails   as ConvertToRec709
+void DecodeLuminanceChroma(const std::string& fileName, ExrPart& part);
+
 } // namespace radiometry::io

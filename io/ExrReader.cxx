@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/ExrReader.h"
 
+#include "io/ExrColor.h"
 #include "io/ExrHeader.h"
 #include "io/ExrThreads.h"
 
@@ -9,7 +10,6 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
-#include <ImfRgbaFile.h>
 #include <ImfStdIO.h>
 #include <ImfTileDescription.h>
 #include <ImfVersion.h>
@@ -254,48 +254,6 @@ void ReadPart(Imf::MultiPartInputFile& file, int index, ExrPart& part)
   }
 }
 
-bool IsLuminanceChroma(const ExrPart& part)
-{
-  return part.Find("Y") && part.Find("RY") && part.Find("BY") && !part.Find("R");
-}
-
-/// Replaces Y, RY and BY by R, G and B, through OpenEXR's own reconstruction filter.
-void DecodeLuminanceChroma(const std::string& fileName, ExrPart& part)
-{
-  Imf::RgbaInputFile input(fileName.c_str(), 0);
-  const ExrBox& w = part.DataWindow;
-  const long long width = w.Width();
-  std::vector<Imf::Rgba> pixels(static_cast<std::size_t>(width * w.Height()));
-  input.setFrameBuffer(
-    pixels.data() - w.XMin - static_cast<std::ptrdiff_t>(w.YMin) * width, 1, width);
-  input.readPixels(w.YMin, w.YMax);
-
-  std::vector<ExrChannel> channels;
-  for (const ExrChannel& channel : part.Channels)
-  {
-    if (channel.Name != "Y" && channel.Name != "RY" && channel.Name != "BY")
-    {
-      channels.push_back(channel);
-    }
-  }
-  const std::pair<const char*, Imath::half Imf::Rgba::*> primaries[] = { { "R", &Imf::Rgba::r },
-    { "G", &Imf::Rgba::g }, { "B", &Imf::Rgba::b } };
-  for (const auto& [name, member] : primaries)
-  {
-    auto values = std::make_shared<std::vector<float>>();
-    values->reserve(pixels.size());
-    for (const Imf::Rgba& pixel : pixels)
-    {
-      values->push_back(pixel.*member);
-    }
-    ExrChannel channel =
-      ExrChannel::View(name, values->data(), static_cast<int>(width), ExrPixelType::Half);
-    channel.Owner = values;
-    channels.push_back(channel);
-  }
-  part.Channels = channels;
-}
-
 ExrImage Guarded(const std::string& fileName, const std::function<ExrImage()>& body)
 {
   try
@@ -340,7 +298,7 @@ ExrImage ReadExr(const std::string& fileName, const ExrReadOptions& options)
     }
     for (ExrPart& part : image)
     {
-      if (options.DecodeLuminanceChroma && image.size() == 1 && IsLuminanceChroma(part))
+      if (options.DecodeLuminanceChroma)
       {
         DecodeLuminanceChroma(fileName, part);
       }

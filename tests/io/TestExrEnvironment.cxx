@@ -262,6 +262,65 @@ TEST(ExrColor, TheFourPicturesLookAlike)
   }
 }
 
+TEST(ExrColor, LuminanceAndChromaOfEverySamplingAndPlace)
+{
+  // A picture whose chroma is constant, or runs linearly: exact away from the rim, for chroma of all
+  // pixels and of every second one, windows that begin left of 0 and right of it, and luminances that no half could hold.
+  const double yr = 0.2126390;
+  const double yb = 0.0721923;
+  for (const int sampling : { 1, 2 })
+  {
+    for (const int first : { 0, 4, -6 })
+    {
+      const int n = 40;
+      std::vector<float> y, ry, by;
+      for (int j = 0; j < n; ++j)
+      {
+        for (int i = 0; i < n; ++i)
+        {
+          y.push_back(1e6f + 1e3f * static_cast<float>((i * 7 + j * 3) % 11));
+          if (i % sampling == 0 && j % sampling == 0)
+          {
+            ry.push_back(0.01f * static_cast<float>(i) - 0.2f);
+            by.push_back(0.2f - 0.005f * static_cast<float>(j));
+          }
+        }
+      }
+      ExrPart part;
+      part.Name = "picture";
+      part.DataWindow = { first, first, first + n - 1, first + n - 1 };
+      part.Channels = { ExrChannel::View("Y", y.data(), n) };
+      for (const auto& [name, values] : { std::make_pair("RY", &ry), std::make_pair("BY", &by) })
+      {
+        ExrChannel channel = ExrChannel::View(name, values->data(), n / sampling);
+        channel.XSampling = channel.YSampling = sampling;
+        part.Channels.push_back(channel);
+      }
+      ExrPart other = part;
+      other.Name = "again"; // of a file of several parts, too
+      const std::string file = testing::TempDir() + "/chroma.exr";
+      WriteExr(file, { part, other });
+      for (const ExrPart& read : ReadExr(file))
+      {
+        ASSERT_TRUE(read.Find("R") && read.Find("G") && read.Find("B") && !read.Find("Y"));
+        for (int j = 6; j < n - 7; ++j)
+        {
+          for (int i = 6; i < n - 7; ++i)
+          {
+            const double luminance = y[j * n + i];
+            const double red = (1.0 + 0.01 * i - 0.2) * luminance;
+            const double blue = (1.0 + 0.2 - 0.005 * j) * luminance;
+            EXPECT_NEAR(read.Find("R")->At(i, j), red, 1e-6 * luminance);
+            EXPECT_NEAR(read.Find("B")->At(i, j), blue, 1e-6 * luminance);
+            EXPECT_NEAR(read.Find("G")->At(i, j), (luminance - yr * red - yb * blue) / (1 - yr - yb),
+              1e-5 * luminance);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(ExrParts, SharedAttributesAreFilledIn)
 {
   const std::vector<float> values(64, 1.5f);
