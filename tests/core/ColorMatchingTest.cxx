@@ -186,7 +186,7 @@ TEST(ColorMatching, LuminanceIsKmTimesV)
     // And by way of RGB with the exact weights of its primaries.
     EXPECT_NEAR(683.002 * LinearRec709ToXyz(line.ToRgb(&one))[1], line.ToPhotometric(&one), 1e-9);
   }
-  // A black body of 2045 K (platinum's freezing point, the old candela): 60 cd/cm^2.
+  // A black body of 2041.4 K (platinum's freezing point, the old candela): 60 cd/cm^2.
   const auto grid = Every(380, 780, 1);
   const SpectralColor color = Bands(grid, BandValues::PerNanometre);
   const double h = 6.62607015e-34, c = 299792458.0, k = 1.380649e-23;
