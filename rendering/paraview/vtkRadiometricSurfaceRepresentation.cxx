@@ -96,6 +96,16 @@ void vtkRadiometricSurfaceRepresentation::SetMetersPerUnit(double meters)
   vtkForwardToMappers(SetMetersPerUnit(meters));
 }
 
+void vtkRadiometricSurfaceRepresentation::SetHighlights(bool on)
+{
+  vtkForwardToMappers(SetHighlights(on));
+}
+
+void vtkRadiometricSurfaceRepresentation::SetUseLightVisibility(bool on)
+{
+  vtkForwardToMappers(SetUseLightVisibility(on));
+}
+
 void vtkRadiometricSurfaceRepresentation::SetFieldArray(
   int vtkNotUsed(index), int vtkNotUsed(port), int vtkNotUsed(connection), int association,
   const char* name)

@@ -78,6 +78,8 @@ public:
   void SetEmission(double r, double g, double b);
   void SetLightScale(double scale);
   void SetMetersPerUnit(double meters);
+  void SetHighlights(bool on);
+  void SetUseLightVisibility(bool on);
   ///@}
 
   ///@{

@@ -106,6 +106,49 @@ def test_the_data_decides_what_is_shown():
     pv.Delete(view)
 
 
+def test_shadows_highlights_and_false_color():
+    view = new_view()
+    floor = new_plane(18)
+    lamp = pv.PointLight(Position=[0, 0, 1], Intensity=1.0)
+    blocker = pv.Plane(Origin=[-0.2, -0.2, 0.5], Point1=[0.2, -0.2, 0.5], Point2=[-0.2, 0.2, 0.5])
+    direct = pv.Irradiance(Input=floor, Lights=lamp, Occluders=blocker)
+    direct.LightVisibility = 1
+    surface = show_surface(direct, view)
+    show_lights(lamp, view)
+    image = picture(view)  # the shadow is the square of half 0.4
+    expect(image, 0.03, 0.03, 0.0)
+    expect(image, 0.65, 0.2, radiance(1.0, 1.0, 0.65, 0.2))
+    surface.UseLightVisibility = 0
+    expect(picture(view), 0.03, 0.03, radiance(1.0, 1.0, 0.03, 0.03))
+    pv.Hide(direct, view)
+
+    matte = cells_with("Radiosity", [0.2 * math.pi] * 4)
+    surface = show_surface(matte, view)
+    lamp.Intensity = 0.2
+    surface.Specular = 0.5
+    surface.SpecularPower = 20
+    bright = picture(view)
+    check(bright[pixel(0, 0)].min() > 0.2 * 255 + 5, bright[pixel(0, 0)])
+    surface.Highlights = 0
+    expect(picture(view), 0, 0, 0.2)
+    pv.Hide(matte, view)
+
+    field = pv.Calculator(Input=floor, ResultArrayName="T", Function="coordsX")
+    surface = show_surface(field, view)
+    surface.FieldDisplay = "False color"
+    pv.ColorBy(surface, ("POINTS", "T"))
+    colors = pv.GetColorTransferFunction("T")
+    colors.RescaleTransferFunction(-1.0, 1.0)
+    image = picture(view)
+    for x in (-0.705, -0.205, 0.305, 0.805):
+        legend = [0.0, 0.0, 0.0]
+        colors.SMProxy.GetClientSideObject().GetColor(x, legend)
+        expect(image, x, 0.3, legend, 2.0)
+    surface.SMProxy.UpdatePropertyInformation()
+    check(surface.FieldUsed == "scalars through their colour map", surface.FieldUsed)
+    pv.Delete(view)
+
+
 def test_undo_and_redo():
     stack = pv.servermanager.vtkSMUndoStack()
     builder = pv.servermanager.vtkSMUndoStackBuilder()
