@@ -61,6 +61,16 @@ void vtkRadiometricSurfaceRepresentation::SetShading(int shading)
   vtkForwardToMappers(SetShading(shading));
 }
 
+void vtkRadiometricSurfaceRepresentation::SetShadingTolerance(double tolerance)
+{
+  vtkForwardToMappers(SetShadingTolerance(tolerance));
+}
+
+void vtkRadiometricSurfaceRepresentation::SetShadingTimeShare(double share)
+{
+  vtkForwardToMappers(SetShadingTimeShare(share));
+}
+
 void vtkRadiometricSurfaceRepresentation::SetReflectionModel(int model)
 {
   vtkForwardToMappers(SetReflectionModel(model));
@@ -178,6 +188,18 @@ const char* vtkRadiometricSurfaceRepresentation::GetShadingUsed()
   const char* names[] = { "Flat", "Gouraud", "Phong", "Auto" };
   auto* mapper = vtkPhongGouraudMapper::SafeDownCast(this->Mapper);
   return names[mapper ? mapper->GetShadingUsed() : 2];
+}
+
+double vtkRadiometricSurfaceRepresentation::GetGouraudShare()
+{
+  auto* mapper = vtkPhongGouraudMapper::SafeDownCast(this->Mapper);
+  return mapper ? mapper->GetGouraudShare() : 0.0;
+}
+
+const char* vtkRadiometricSurfaceRepresentation::GetShadingReason()
+{
+  auto* mapper = vtkPhongGouraudMapper::SafeDownCast(this->Mapper);
+  return mapper ? mapper->GetShadingReason() : "";
 }
 
 void vtkRadiometricSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)

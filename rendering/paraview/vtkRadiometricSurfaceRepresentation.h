@@ -71,6 +71,8 @@ public:
    * Forwarded to the mappers.
    */
   void SetShading(int shading);
+  void SetShadingTolerance(double tolerance);
+  void SetShadingTimeShare(double share);
   void SetReflectionModel(int model);
   void SetLocalViewer(bool local);
   void SetTwoSided(bool twoSided);
@@ -95,9 +97,12 @@ public:
 
   ///@{
   /**
-   * What the last frame was drawn with: "Flat", "Gouraud" or "Phong"; and what it showed, in words.
+   * What the last frame was drawn with: "Flat", "Gouraud", "Phong", or "Auto" for some triangles each;
+   * which share of them Gouraud, and why; and what the frame showed, in words.
    */
   const char* GetShadingUsed();
+  double GetGouraudShare();
+  const char* GetShadingReason();
   const char* GetFieldUsed() { return this->FieldUsed.c_str(); }
   ///@}
 

@@ -82,7 +82,7 @@ def test_the_data_decides_what_is_shown():
         expect(picture(view), *corner, shows)
         surface.SMProxy.UpdatePropertyInformation()
         check(surface.FieldUsed == words, name, surface.FieldUsed)
-        check(surface.ShadingUsed in ("Gouraud", "Phong"), surface.ShadingUsed)
+        check(surface.ShadingUsed in ("Gouraud", "Phong", "Auto"), surface.ShadingUsed)
         # Lit by choice, with the property's material by choice.
         surface.FieldDisplay = "Lit by the lights"
         surface.MaterialSource = "Color and specular below"
@@ -103,6 +103,25 @@ def test_the_data_decides_what_is_shown():
     expect(image, -0.45, -0.45, 0.4)
     expect(image, 0.45, 0.45, 0.0)
     pv.Delete(surface)
+    pv.Delete(view)
+
+
+def test_auto_shading_tells_what_it_did():
+    """Fine cells under a distant light: a bound allows Gouraud for all of them, and a tolerance of 0 for
+    none."""
+    view = new_view()
+    surface = show_surface(new_plane(100), view)
+    show_lights(pv.PointLight(Position=[0, 0, 5], Intensity=10), view)
+    surface.ShadingTimeShare = 1e6  # decide before the frame
+    pictures = []
+    for tolerance, share in ((0.00196, 1.0), (0.0, 0.0)):
+        surface.ShadingTolerance = tolerance
+        pictures.append(picture(view))
+        surface.SMProxy.UpdatePropertyInformation()
+        check(abs(surface.GouraudShare - share) < 1e-9, tolerance, surface.GouraudShare)
+        check(surface.ShadingUsed == ("Gouraud" if share else "Phong"), surface.ShadingUsed)
+        check(surface.ShadingReason != "")
+    check(np.abs(pictures[0] - pictures[1]).max() <= 1)
     pv.Delete(view)
 
 
