@@ -2,6 +2,7 @@
 #include "RadiometricResults.h"
 
 #include "BandWavelengths.h"
+#include "PhotometricNames.h"
 #include "SurfacePoints.h"
 #include "radiometry/imaging/ColorMatching.h"
 #include "radiometry/scene/ArrayNames.h"
@@ -30,33 +31,6 @@ namespace names = radiometry::names;
 
 namespace
 {
-
-struct Photometry
-{
-  const char* Radiometric;
-  const char* Photometric;
-  const char* Unit;
-};
-constexpr std::array<Photometry, 5> PhotometricNames{ Photometry{ names::Irradiance,
-                                                        names::Illuminance, "lx" },
-  Photometry{ names::Radiosity, names::LuminousExitance, "lm/m^2" },
-  Photometry{ names::Radiance, names::Luminance, "cd/m^2" },
-  Photometry{ names::Dose, names::LuminousExposure, "lx s" },
-  Photometry{ names::ImageIrradiance, names::ImageIlluminance, "lx" } };
-
-/// The photometric counterpart of a quantity, "IrradianceBack" included; null: none.
-const Photometry* Counterpart(const std::string& name, std::string& renamed)
-{
-  for (const Photometry& p : PhotometricNames)
-  {
-    if (name == p.Radiometric || name == std::string(p.Radiometric) + names::BackSuffix)
-    {
-      renamed = p.Photometric + name.substr(std::string(p.Radiometric).size());
-      return &p;
-    }
-  }
-  return nullptr;
-}
 
 /// The lumens of one tuple: by V(lambda) where the bands' wavelengths are known.
 class Photometer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSpectrumToRGBFilter.h"
 
+#include "PhotometricNames.h"
 #include "radiometry/imaging/ColorMatching.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
@@ -39,30 +40,6 @@ bool IsShare(const std::string& name)
 {
   return EndsWith(name, "Reflectance") || EndsWith(name, "Transmittance") ||
     EndsWith(name, names::Ambient);
-}
-
-/// Name and unit of what an array is in photometry.
-struct Photometry
-{
-  const char* Radiometric;
-  const char* Name;
-  const char* Unit;
-};
-constexpr Photometry Counterparts[] = { { names::Irradiance, names::Illuminance, "lx" },
-  { names::Radiosity, names::LuminousExitance, "lm/m^2" },
-  { names::Radiance, names::Luminance, "cd/m^2" },
-  { names::Dose, names::LuminousExposure, "lx s" } };
-
-Photometry CounterpartOf(const std::string& name)
-{
-  for (const Photometry& p : Counterparts)
-  {
-    if (name == p.Radiometric || name == std::string(p.Radiometric) + names::BackSuffix)
-    {
-      return p;
-    }
-  }
-  return { "", "", "" };
 }
 
 const char* UnitOf(vtkDataArray* array)
@@ -199,10 +176,10 @@ void vtkSpectrumToRGBFilter::AddColors(vtkDataArray* array, const std::vector<do
   vtkSmartPointer<vtkDataArray> photometric;
   if (this->Photometric && kind != REFLECTANCE)
   {
-    const Photometry p = CounterpartOf(name);
-    photometric = *p.Name
-      ? Beside(array, p.Name + name.substr(std::string(p.Radiometric).size()), 1, p.Unit)
-      : Beside(array, name + "Photometric", 1, "");
+    std::string renamed;
+    const Photometry* p = Counterpart(name, renamed);
+    photometric =
+      p ? Beside(array, renamed, 1, p->Unit) : Beside(array, name + "Photometric", 1, "");
   }
   std::vector<double> values(wavelengths.size());
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)

@@ -38,11 +38,11 @@ def array(name, values):
     return made
 
 
-def surface_in_three_bands():
+def surface_in_three_bands(edge):
     reader = vtkRadiometricSceneReader()
     reader.SetFileName(os.path.join(HERE, "cornell-box.glb"))
     reader.Update()
-    surface, _ = refine(reader.GetOutput(0), EDGE)
+    surface, _ = refine(reader.GetOutput(0), edge)
     surface.GetFieldData().ShallowCopy(reader.GetOutput(0).GetFieldData())
     return apart(surface, "light"), reader.GetOutput(2)
 
@@ -107,16 +107,16 @@ def lumens(power, wavelengths):
     return to_rgb.GetOutput().GetPointData().GetArray("LuminousExitance").GetValue(0)
 
 
-def radiosity(surface):
+def radiosity(surface, tolerance):
     solve = vtkRadiosityFilter()
     solve.SetInputData(surface)
-    solve.SetRelativeTolerance(TOLERANCE)
+    solve.SetRelativeTolerance(tolerance)
     solve.SetSampleLocation(1)  # points, for a smooth picture
     solve.Update()
     return solve
 
 
-def picture(producer, name, cameras):
+def picture(producer, name, cameras, size):
     """The scene-linear picture of an array of radiosities."""
     mapper = vtkPhongGouraudMapper()
     mapper.SetInputConnection(producer.GetOutputPort(0))
@@ -140,7 +140,7 @@ def picture(producer, name, cameras):
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
-    window.SetSize(SIZE, SIZE)
+    window.SetSize(size, size)
     window.AddRenderer(renderer)
     window.Render()
     image = linear.GetColor().NewInstance()
@@ -157,15 +157,15 @@ def write(kind, producer, path):
     writer.Write()
 
 
-def main(folder):
+def main(folder, edge=EDGE, tolerance=TOLERANCE, size=SIZE):
     os.makedirs(folder, exist_ok=True)
-    surface, cameras = surface_in_three_bands()
-    in_bands, in_rgb = radiosity(in_76_bands(surface)), radiosity(surface)
+    surface, cameras = surface_in_three_bands(edge)
+    in_bands, in_rgb = [radiosity(s, tolerance) for s in (in_76_bands(surface), surface)]
     spectral = vtkSpectrumToRGBFilter()
     spectral.SetInputConnection(in_bands.GetOutputPort(0))
     spectral.AddArrayName("Radiosity")
-    images = [picture(spectral, "RadiosityRGB", cameras),
-              picture(in_rgb, "Radiosity", cameras)]
+    images = [picture(spectral, "RadiosityRGB", cameras, size),
+              picture(in_rgb, "Radiosity", cameras, size)]
     for image, name in zip(images, ("spectral.exr", "rgb.exr")):
         write(vtkOpenEXRWriter, image, os.path.join(folder, name))
 
@@ -191,6 +191,7 @@ def main(folder):
     colours.IsoLinesOn()
     write(vtkPNGWriter, colours, os.path.join(folder, "luminance.png"))
     print(exposure.GetOutput().GetFieldData().GetAbstractArray("ExposureSummary").GetValue(0))
+    return table
 
 
 if __name__ == "__main__":
