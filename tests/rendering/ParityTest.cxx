@@ -243,3 +243,91 @@ TEST(Parity, NormalsAndDepth)
     EXPECT_GT(compared, 100);
   }
 }
+
+namespace
+{
+
+/// The scene with each triangle cut into n x n.
+ParityScene Subdivided(const ParityScene& scene, int n)
+{
+  ParityScene fine = scene;
+  fine.Points.clear();
+  fine.Normals.clear();
+  for (std::size_t t = 0; t < scene.Triangles(); ++t)
+  {
+    const auto add = [&](int i, int j) {
+      const double u = static_cast<double>(i) / n;
+      const double v = static_cast<double>(j) / n;
+      const Vec3* p = &scene.Points[3 * t];
+      const Vec3* m = &scene.Normals[3 * t];
+      fine.Points.push_back((1 - u - v) * p[0] + u * p[1] + v * p[2]);
+      fine.Normals.push_back(Normalized((1 - u - v) * m[0] + u * m[1] + v * m[2]));
+    };
+    for (int i = 0; i < n; ++i)
+    {
+      for (int j = 0; i + j < n; ++j)
+      {
+        add(i, j);
+        add(i + 1, j);
+        add(i, j + 1);
+        if (i + j + 1 < n)
+        {
+          add(i + 1, j);
+          add(i + 1, j + 1);
+          add(i, j + 1);
+        }
+      }
+    }
+  }
+  return fine;
+}
+
+} // namespace
+
+/// Auto may differ from Phong by its tolerance and no more, in any scene, at every pixel.
+TEST(Parity, AutoIsPhongWithinItsTolerance)
+{
+  ParityStage& stage = TheStage();
+  int mixed = 0;
+  int gouraud = 0;
+  double most = 0.0; // of what the tolerance allows
+  const auto& features = ParityFeatures();
+  const auto many = std::find_if(features.begin(), features.end(),
+    [](const ParityFeature& feature) { return feature.Name == "1 to 300 lights"; });
+  ASSERT_NE(many, features.end());
+  for (std::uint32_t seed = 1; seed <= 80; ++seed)
+  {
+    // A random scene, or many dim lights (Gouraud pays where there are several).
+    ParityScene scene = seed % 4 ? Subdivided(MakeFeatureScene(*many, 3000 + seed, 3), 7)
+                                 : MakeRandomScene(3000 + seed, 3);
+    if (seed % 2)
+    {
+      scene.Front.Specular = scene.Back.Specular = { 0.5, 0.25, 0.125 };
+      scene.Model.TwoSided = seed % 8 < 4;
+    }
+    stage.Set(scene);
+    const double tolerance = std::pow(10.0, -2.0 + 3.0 * (seed % 10) / 9.0);
+    stage.GetMapper()->SetShadingTolerance(tolerance);
+    stage.GetMapper()->SetShadingTimeShare(1e9); // decides before it draws
+    const float* picture = stage.Draw();
+    const std::vector<float> drawn(picture, picture + 4 * Size * Size);
+    const int used = stage.GetMapper()->GetShadingUsed();
+    mixed += used == vtkPhongGouraudMapper::AUTO ? 1 : 0;
+    gouraud += used == vtkPhongGouraudMapper::GOURAUD ? 1 : 0;
+    stage.GetMapper()->SetShadingToPhong();
+    const float* phong = stage.Draw();
+    for (int i = 0; i < 4 * Size * Size; ++i)
+    {
+      const double off = std::abs(static_cast<double>(drawn[i]) - phong[i]);
+      const double allowed = tolerance + Relative * std::abs(phong[i]);
+      most = std::max(most, off / allowed);
+      ASSERT_LE(off, allowed) << scene.Name << " pixel " << i / 4 % Size << " " << i / 4 / Size
+                              << " band " << i % 4 << " used " << used;
+    }
+  }
+  std::printf("Auto: %d scenes of both kinds, %d all Gouraud, at most %.2f of the tolerance\n", mixed,
+    gouraud, most);
+  EXPECT_GE(mixed, 10);
+  EXPECT_GE(gouraud, 1);
+  EXPECT_GE(most, 0.05); // a bound that wastes all of it decides nothing
+}

@@ -138,6 +138,16 @@ def test_places_of_evaluation():
     for shading in ("Gouraud", "Phong"):
         expect(window(SUN, shading=shading, surface=bare), PHONG, "Directional CellFrame")
     expect(window(SUN, shading="Auto"), gouraud, "Directional")
+    # Both: one corner of the mesh is in a cone, eight lights far away hardly vary.
+    n = 16
+    ticks = [-0.8 + 1.6 * i / n for i in range(n + 1)]
+    mesh = polydata([(x, y, 0) for y in ticks for x in ticks],
+                    [(j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i)
+                     for j in range(n) for i in range(n)], [(0, 0, 1)] * (n + 1) ** 2)
+    w = window(dict(SPOT, Position=(0.5, 0.5, 0.8), SpotCutoff=15), *[
+        dict(POINT, Position=(0, 0, 30), Intensity=(50, 50, 50))] * 8, shading="Auto", surface=mesh,
+        ShadingTimeShare=1e9)
+    expect(w, NEAR, "Spot PerVertex PerTriangle")
 
 
 def test_highlights():
