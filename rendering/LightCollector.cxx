@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LightCollector.h"
 
+#include "ExtendedLightReader.h"
+
 #include "radiometry/scene/ArrayNames.h"
-#include "radiometry/scene/CandelaWeb.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/scene/Light.h"
 
-#include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkFieldData.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkMath.h"
@@ -21,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 namespace vtkradiometry
@@ -129,37 +126,6 @@ std::string WhatIsWrong(const DisplayLight& light, double cutoff)
                    : std::string(names::Attenuation) + ": expected one value above 0";
 }
 
-/// The mean over all directions of a candela web, relative to its greatest value: what an isotropic
-/// light of the same flux has. Throws InputError where the field data has no such web.
-double MeanOfWeb(vtkFieldData* field, int index)
-{
-  const std::string name = radiometry::names::PhotometricWeb + std::to_string(index);
-  const auto values = [&](const std::string& which) {
-    vtkDataArray* array = field->GetArray((name + which).c_str());
-    if (!array)
-    {
-      throw radiometry::InputError(name + which, -1, "missing", "a field array");
-    }
-    std::vector<double> all;
-    for (vtkIdType k = 0; k < array->GetNumberOfValues(); ++k)
-    {
-      all.push_back(array->GetComponent(
-        k / array->GetNumberOfComponents(), k % array->GetNumberOfComponents()));
-    }
-    return all;
-  };
-  vtkDataArray* type = field->GetArray((name + "Type").c_str());
-  const int kind = type && type->GetNumberOfTuples() > 0 ? static_cast<int>(type->GetComponent(0, 0)) : 1;
-  const radiometry::CandelaWeb web(static_cast<radiometry::WebType>(kind), values("Horizontal"),
-    values("Vertical"), values(""), name);
-  return web.TotalFlux() / (4.0 * vtkMath::Pi());
-}
-
-} // namespace
-
-namespace
-{
-
 void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
 {
   namespace names = radiometry::names;
@@ -174,8 +140,8 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
   const LightArray ambient(data, names::AmbientColor);
   const LightArray specular(data, names::SpecularColor);
   const LightArray attached(data, names::AttachedTo);
-  const LightArray webs(data, names::PhotometricWeb);
-  std::map<int, double> means; // of the webs, each summed up once
+  const LightArray reference(data, names::ReferenceDirection);
+  ExtendedLightReader extended(data);
   const auto complain = [&result](vtkIdType i, const std::string& what) {
     if (result.Problem.empty())
     {
@@ -184,22 +150,6 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
       result.Problem = text.str();
     }
   };
-  // Area lights: once a polygon, not once a corner.
-  std::vector<char> isCorner(static_cast<std::size_t>(data->GetNumberOfPoints()), 0);
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType c = 0; type && c < data->GetNumberOfPolys(); ++c)
-  {
-    data->GetPolys()->GetCellAtId(c, ids);
-    for (const vtkIdType p : *ids)
-    {
-      isCorner[p] = 1;
-    }
-    const vtkIdType first = ids->GetNumberOfIds() > 0 ? ids->GetId(0) : -1;
-    if (first >= 0 && type.Value(first, 0.0) == 3.0 && enabled.Value(first, 1.0) != 0.0)
-    {
-      ++result.NotDrawn;
-    }
-  }
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     if (enabled.Value(i, 1.0) == 0.0)
@@ -207,16 +157,11 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
       continue;
     }
     const double kind = type.Value(i, 0.0);
-    if (kind == 3.0 && isCorner[i])
+    if (kind == 3.0)
     {
-      continue; // its polygon counts, below
+      continue; // the corner of an area light: below
     }
-    if (kind == 3.0 || kind == 4.0)
-    {
-      ++result.NotDrawn;
-      continue;
-    }
-    if (kind != 0.0 && kind != 1.0 && kind != 2.0)
+    if (kind != 0.0 && kind != 1.0 && kind != 2.0 && kind != 4.0)
     {
       complain(i, std::string(names::LightType) + ": expected 0 to 4");
       continue;
@@ -246,24 +191,16 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
         light.CosInnerCutoff = std::cos(vtkMath::RadiansFromDegrees(innerCutoff));
       }
     }
-    const double web = webs.Value(i, -1.0);
-    if (kind == 0.0 && web >= 0.0)
+    try
     {
-      try
-      {
-        const int index = static_cast<int>(std::min(web, 1e9));
-        const auto known = means.find(index);
-        const double mean =
-          known != means.end() ? known->second : MeanOfWeb(data->GetFieldData(), index);
-        means[index] = mean;
-        light.Diffuse = mean * light.Diffuse;
-        light.Specular = mean * light.Specular;
-      }
-      catch (const radiometry::InputError& error)
-      {
-        complain(i, error.what());
-        continue;
-      }
+      light.Reference = reference.Vector(i, { 1.0, 0.0, 0.0 });
+      light.Web = kind == 0.0 ? extended.Web(i) : nullptr;
+      light.Sky = kind == 4.0 ? extended.Sky(i, light.SpotDirection, light.Reference) : nullptr;
+    }
+    catch (const radiometry::InputError& error)
+    {
+      complain(i, error.what());
+      continue;
     }
     const std::string wrong = WhatIsWrong(light, cutoff);
     if (!wrong.empty())
@@ -276,6 +213,32 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
     result.Frames.push_back(static_cast<LightFrame>(std::clamp(frame, 0, 2)));
     const Vec3& d = light.SpotDirection;
     result.Keys.push_back({ kind, p[0], p[1], p[2], d.x, d.y, d.z });
+  }
+  for (AreaLight& area : extended.Areas())
+  {
+    const vtkIdType i = area.First;
+    if (type.Value(i, 0.0) != 3.0 || enabled.Value(i, 1.0) == 0.0)
+    {
+      continue;
+    }
+    DisplayLight light;
+    light.Diffuse = intensity.Color(i, { 1.0, 1.0, 1.0 });
+    light.Specular = light.Ambient = Rgb();
+    light.PolygonTwoSided = area.TwoSided;
+    light.Polygon = std::move(area.Corners);
+    const bool finite =
+      std::all_of(light.Polygon.begin(), light.Polygon.end(), [](const Vec3& c) { return radiometry::IsFinite(c); });
+    if (!finite || !IsFinite(light.Diffuse))
+    {
+      complain(i, finite ? std::string(names::Intensity) + ": expected finite values"
+                         : "Points: expected finite coordinates");
+      continue;
+    }
+    const Vec3 corner = light.Polygon.front();
+    const int frame = static_cast<int>(attached.Value(i, 0.0));
+    result.Lights.push_back(std::move(light));
+    result.Frames.push_back(static_cast<LightFrame>(std::clamp(frame, 0, 2)));
+    result.Keys.push_back({ 3.0, corner.x, corner.y, corner.z, 0.0, 0.0, 0.0 });
   }
 }
 

@@ -35,14 +35,14 @@ struct CollectedLights
   std::vector<radiometry::DisplayLight> Lights;
   std::vector<LightFrame> Frames;
   std::vector<LightKey> Keys; // type -1: a light that no data knows
-  int NotDrawn = 0;    // area and environment lights: the mapper has no formula for them
+  int NotDrawn = 0;    // enabled lights that the mapper has no formula for
   std::string Problem; // what was wrong with the arrays; empty: nothing
 };
 
 /// Reads the enabled lights of a polydata, or of all polydata in a tree, in the project's light
 /// arrays (docs/arrays.md).
-///   A luminaire with a candela web is drawn as a point light of the same flux: its mean intensity in
-///   all directions. The shape of its light is in the simulation only.
+///   Luminaires have their candela webs, area lights their polygons, environments the low degrees of
+///   their irradiance (ExtendedLights.h).
 ///   One band is grey, three are RGB, any other number is the grey of its mean.
 ///   Lights whose values cannot be drawn (not finite, wrong cone, attenuation without a positive
 ///   term) are left out and the first is named in Problem.
@@ -73,13 +73,20 @@ struct LocalCoordinates
 ///   3  ambient colour, cosine of the inner half-angle
 ///   4  specular colour, 1/(inner - outer)
 ///   5  attenuation a, b, c; unused
+/// Luminaires, area lights and skies come after them and have more after all lights:
+///   luminaire    1.x its first texel there: three axes of the web's grid with the numbers of its
+///                polar angles and azimuths and whether these go round; then the first texel of the
+///                angles and values, four a texel
+///   area light   0.xyz its first corner there, their number, two-sided or not
+///   sky          0.x its first texel there: constant, x, y, z, xx, yy, zz, xy, xz, yz of SkyQuadric
 struct PackedLights
 {
   static constexpr int TexelsPerLight = 6;
   std::vector<float> Texels;
   std::vector<LightKey> Keys; // of each light that was packed
-  // [begin, end) of directional, point and spot lights.
-  std::array<std::array<int, 2>, 3> Ranges{ { { { 0, 0 } }, { { 0, 0 } }, { { 0, 0 } } } };
+  // [begin, end) of directional, point and spot lights, luminaires, area lights, skies.
+  std::array<std::array<int, 2>, 6> Ranges{};
+  int Count() const { return this->Ranges.back()[1]; }
   ShaderFeatures Features; // what these lights need of the shader
 };
 

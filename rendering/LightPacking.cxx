@@ -2,9 +2,14 @@
 // Lights into the texels that the shaders read: see PackedLights in LightCollector.h.
 #include "LightCollector.h"
 
+#include "radiometry/scene/CandelaWeb.h"
+
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+
+#include <algorithm>
+#include <map>
 
 namespace vtkradiometry
 {
@@ -45,6 +50,147 @@ Vec3 TransformDirection(vtkMatrix4x4* m, const Vec3& d)
   return radiometry::Normalized({ out[0], out[1], out[2] });
 }
 
+enum Kind
+{
+  DirectionalKind,
+  PointKind,
+  SpotKind,
+  LuminaireKind,
+  AreaKind,
+  SkyKind,
+  Kinds
+};
+const char* const KindFeatures[Kinds] = { "Directional", "Point", "Spot", "Luminaire", "Area",
+  "Sky" };
+
+Kind KindOf(const DisplayLight& light)
+{
+  if (light.Sky)
+  {
+    return SkyKind;
+  }
+  if (!light.Polygon.empty())
+  {
+    return AreaKind;
+  }
+  if (light.Position[3] == 0.0)
+  {
+    return DirectionalKind;
+  }
+  return light.Web ? LuminaireKind : (light.CosCutoff > -1.0 ? SpotKind : PointKind);
+}
+
+/// A rotation: where the axes go, made square again where the map is not conformal.
+std::array<Vec3, 3> RowsOf(vtkMatrix4x4* toLocal)
+{
+  const Vec3 x = TransformDirection(toLocal, { 1.0, 0.0, 0.0 });
+  const Vec3 up = TransformDirection(toLocal, { 0.0, 0.0, 1.0 });
+  const Vec3 right = radiometry::Normalized(x - Dot(x, up) * up);
+  const Vec3 forward = TransformDirection(toLocal, { 0.0, 1.0, 0.0 });
+  const Vec3 third = Cross(up, right);
+  const Vec3 y = Dot(third, forward) < 0.0 ? -third : third;
+  // The new axes seen in the old ones.
+  return { { { right.x, y.x, up.x }, { right.y, y.y, up.y }, { right.z, y.z, up.z } } };
+}
+
+/// What comes after all lights.
+class Appendix
+{
+public:
+  /// `first`: its first texel in the buffer.
+  explicit Appendix(int first)
+    : First(first)
+  {
+  }
+  /// The number of the next texel in the buffer.
+  int Next() const { return this->First + static_cast<int>(this->Texels.size() / 4); }
+  void Add(double x, double y, double z, double w) { Put(this->Texels, x, y, z, w); }
+  /// Numbers, four a texel.
+  void Add(const std::vector<double>& numbers)
+  {
+    for (std::size_t k = 0; k < numbers.size(); k += 4)
+    {
+      const auto at = [&](std::size_t c) { return k + c < numbers.size() ? numbers[k + c] : 0.0; };
+      this->Add(at(0), at(1), at(2), at(3));
+    }
+  }
+  /// The place of a web's angles and values, which lights share.
+  int AddWeb(const radiometry::CandelaWeb* web)
+  {
+    const auto found = this->Webs.find(web);
+    if (found != this->Webs.end())
+    {
+      return found->second;
+    }
+    const int place = this->Next();
+    this->Webs[web] = place;
+    const radiometry::CandelaWeb::PolarGrid& grid = web->Grid();
+    std::vector<double> numbers = grid.Theta;
+    numbers.insert(numbers.end(), grid.Psi.begin(), grid.Psi.end());
+    numbers.insert(numbers.end(), grid.Value.begin(), grid.Value.end());
+    this->Add(numbers);
+    return place;
+  }
+  std::vector<float> Texels;
+
+private:
+  int First;
+  std::map<const radiometry::CandelaWeb*, int> Webs;
+};
+
+/// The axes of a luminaire's grid; returns where they begin.
+int AddLuminaire(const DisplayLight& light, vtkMatrix4x4* toLocal, Appendix& after)
+{
+  const auto axes = radiometry::LuminaireAxes(TransformDirection(toLocal, light.SpotDirection),
+    TransformDirection(toLocal, light.Reference));
+  const radiometry::CandelaWeb::PolarGrid& grid = light.Web->Grid();
+  const auto row = [&axes](const Vec3& a) { return a.x * axes[0] + a.y * axes[1] + a.z * axes[2]; };
+  const int data = after.AddWeb(light.Web.get());
+  const int place = after.Next();
+  const Vec3 x = row(grid.AxisX);
+  const Vec3 y = row(grid.AxisY);
+  const Vec3 pole = row(grid.Pole);
+  after.Add(x.x, x.y, x.z, static_cast<double>(grid.Thetas()));
+  after.Add(y.x, y.y, y.z, static_cast<double>(grid.Psis()));
+  after.Add(pole.x, pole.y, pole.z, grid.Closed ? 1.0 : 0.0);
+  after.Add(data, 0.0, 0.0, 0.0);
+  return place;
+}
+
+/// An area light or a sky: where its data is, and its colour.
+void PutExtended(const DisplayLight& light, vtkMatrix4x4* toLocal, double unit, Appendix& after,
+  PackedLights& packed)
+{
+  const Rgb color = unit * light.Diffuse;
+  const int place = after.Next();
+  if (light.Sky)
+  {
+    const radiometry::SkyQuadric sky = light.Sky->Rotated(RowsOf(toLocal));
+    const auto add = [&after](const Rgb& c) { after.Add(c.r, c.g, c.b, 0.0); };
+    add(sky.Constant);
+    std::for_each(sky.Linear.begin(), sky.Linear.end(), add);
+    std::for_each(sky.Quadratic.begin(), sky.Quadratic.end(), add);
+    Put(packed.Texels, place, 0.0, 0.0, -1.0);
+  }
+  else
+  {
+    for (const Vec3& corner : light.Polygon)
+    {
+      const Vec3 p = TransformPoint(toLocal, corner);
+      after.Add(p.x, p.y, p.z, 0.0);
+    }
+    // A mirror turns the corners round; the light keeps its front.
+    const double sides = light.PolygonTwoSided ? 0.0 : (toLocal->Determinant() < 0.0 ? -1.0 : 1.0);
+    Put(packed.Texels, place, static_cast<double>(light.Polygon.size()), sides, -1.0);
+  }
+  Put(packed.Texels, 0.0, 0.0, 0.0, 0.0);
+  Put(packed.Texels, color.r, color.g, color.b, 0.0);
+  for (int k = 3; k < PackedLights::TexelsPerLight; ++k)
+  {
+    Put(packed.Texels, 0.0, 0.0, 0.0, 0.0);
+  }
+}
+
 } // namespace
 
 PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& local,
@@ -57,24 +203,36 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
   // Radiance of a Lambertian surface is E/pi: the division is done once, here.
   const double unit = scale *
     (reflection == radiometry::ReflectionModel::Physical ? 1.0 / vtkMath::Pi() : 1.0);
-  for (int kind = 0; kind < 3; ++kind)
+  const auto taken = [&](const DisplayLight& light) {
+    const bool black =
+      IsBlack(light.Diffuse) && IsBlack(light.Ambient) && IsBlack(light.Specular);
+    return light.Enabled && !black && scale != 0.0;
+  };
+  Appendix after(PackedLights::TexelsPerLight *
+    static_cast<int>(std::count_if(lights.Lights.begin(), lights.Lights.end(), taken)));
+  for (int kind = 0; kind < Kinds; ++kind)
   {
     const int texels = static_cast<int>(packed.Texels.size() / 4);
     packed.Ranges[kind][0] = texels / PackedLights::TexelsPerLight;
     for (std::size_t i = 0; i < lights.Lights.size(); ++i)
     {
       const DisplayLight& light = lights.Lights[i];
-      const bool directional = light.Position[3] == 0.0;
-      const bool spot = !directional && light.CosCutoff > -1.0;
-      const bool black =
-        IsBlack(light.Diffuse) && IsBlack(light.Ambient) && IsBlack(light.Specular);
-      if ((directional ? 0 : (spot ? 2 : 1)) != kind || black || !light.Enabled || scale == 0.0)
+      if (KindOf(light) != kind || !taken(light))
       {
         continue;
       }
+      const bool directional = kind == DirectionalKind;
+      const bool spot = kind == SpotKind;
       vtkMatrix4x4* toLocal = lights.Frames[i] == LightFrame::Scene
         ? local.FromWorld.Get()
         : (lights.Frames[i] == LightFrame::Object ? objectToLocal.Get() : local.FromView.Get());
+      if (kind == AreaKind || kind == SkyKind)
+      {
+        PutExtended(light, toLocal, unit, after, packed);
+        packed.Keys.push_back(lights.Keys[i]);
+        packed.Features.insert({ KindFeatures[kind], "Lights" });
+        continue;
+      }
       const Vec3 given{ light.Position[0], light.Position[1], light.Position[2] };
       const Vec3 place =
         directional ? TransformDirection(toLocal, given) : TransformPoint(toLocal, given);
@@ -90,7 +248,14 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
       const double width = light.CosInnerCutoff - light.CosCutoff;
       Put(packed.Texels, place.x, place.y, place.z, -1.0);
       packed.Keys.push_back(lights.Keys[i]);
-      Put(packed.Texels, axis.x, axis.y, axis.z, 1.0 - light.CosCutoff);
+      if (kind == LuminaireKind)
+      {
+        Put(packed.Texels, AddLuminaire(light, toLocal, after), 0.0, 0.0, 0.0);
+      }
+      else
+      {
+        Put(packed.Texels, axis.x, axis.y, axis.z, 1.0 - light.CosCutoff);
+      }
       Put(packed.Texels, diffuse.r, diffuse.g, diffuse.b, light.SpotExponent);
       Put(packed.Texels, ambient.r, ambient.g, ambient.b, light.CosInnerCutoff);
       // Lights with a hard edge have a step of any great slope there.
@@ -99,8 +264,7 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
       Put(packed.Texels, a[0], a[1] * metersPerUnit,
         square ? 1.0 : a[2] * metersPerUnit * metersPerUnit, 0.0);
 
-      packed.Features.insert(directional ? "Directional" : (spot ? "Spot" : "Point"));
-      packed.Features.insert("Lights");
+      packed.Features.insert({ KindFeatures[kind], "Lights" });
       const auto need = [&packed](bool needed, const char* feature) {
         if (needed)
         {
@@ -121,6 +285,7 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
     packed.Ranges[kind][1] =
       static_cast<int>(packed.Texels.size() / 4) / PackedLights::TexelsPerLight;
   }
+  packed.Texels.insert(packed.Texels.end(), after.Texels.begin(), after.Texels.end());
   // One formula for all lights: the polynomial where they differ.
   ShaderFeatures& f = packed.Features;
   if (f.count("InverseSquare") && f.count("NoFallOff"))

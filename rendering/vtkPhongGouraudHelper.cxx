@@ -176,7 +176,14 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
       return p->GetSpecular() > 0.0 && !IsBlack(p->GetSpecularColor());
     })));
     need(specular, "Specular");
-    need(Has(needs, "Point") || Has(needs, "Spot"), "Finite");
+    if (!lit)
+    {
+      needs.erase("Area"); // they have no highlights
+      needs.erase("Sky");
+    }
+    need(Has(needs, "Point") || Has(needs, "Spot") || Has(needs, "Luminaire") ||
+        Has(needs, "Area"),
+      "Finite");
     need(specular || Has(needs, "SpotExponent"), "NeedsPower");
     if (!Has(needs, "Ambient"))
     {
@@ -198,6 +205,11 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     if (shadows)
     {
       this->NeedVisibility(needs);
+    }
+    const bool extended = Has(needs, "Luminaire") || Has(needs, "Area") || Has(needs, "Sky");
+    if (extended && shading == vtkPhongGouraudMapper::AUTO)
+    {
+      shading = vtkPhongGouraudMapper::PHONG;
     }
     if (highlights || shadows)
     {
@@ -336,8 +348,9 @@ void vtkPhongGouraudHelper::SetLightingShaderParameters(
   {
     program->SetUniformi("numberOfColorSteps", static_cast<int>(this->Steps.GetNumberOfSteps()));
   }
-  const char* ranges[] = { "directionalRange", "pointRange", "spotRange" };
-  for (int kind = 0; kind < 3; ++kind)
+  const char* ranges[] = { "directionalRange", "pointRange", "spotRange", "luminaireRange",
+    "areaRange", "skyRange" };
+  for (int kind = 0; kind < 6; ++kind)
   {
     if (program->IsUniformUsed(ranges[kind]))
     {
@@ -454,7 +467,7 @@ vtkradiometry::CollectedLights vtkPhongGouraudHelper::CollectLights(
   this->PlaceOrigin(ren, objectToWorld);
   this->Lights = vtkradiometry::PackLights(collected, this->Local, objectToWorld, model,
     mapper->LightScale, mapper->MetersPerUnit);
-  mapper->NumberOfLightsDrawn = this->Lights.Ranges[2][1];
+  mapper->NumberOfLightsDrawn = this->Lights.Count();
   mapper->NumberOfLightsNotDrawn = collected.NotDrawn;
   return collected;
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/shading/LightingModel.h"
 
+#include "radiometry/scene/CandelaWeb.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace radiometry
@@ -95,6 +98,30 @@ double LightFactor(const DisplayLight& light, double r, const Vec3& toPoint)
   return factor;
 }
 
+namespace
+{
+
+/// Irradiance of an area light or an environment at a point about a unit normal.
+Rgb ExtendedIrradiance(const DisplayLight& light, const Vec3& point, const Vec3& normal)
+{
+  if (light.Sky)
+  {
+    return light.Diffuse * light.Sky->Irradiance(normal);
+  }
+  const double factor = PolygonFormFactor(light.Polygon, point, normal);
+  return (light.PolygonTwoSided ? std::abs(factor) : std::max(factor, 0.0)) * light.Diffuse;
+}
+
+/// Relative intensity of a luminaire in a unit direction.
+double WebFactor(const DisplayLight& light, const Vec3& direction)
+{
+  const std::array<Vec3, 3> axes = LuminaireAxes(light.SpotDirection, light.Reference);
+  return light.Web->Intensity(
+    { Dot(direction, axes[0]), Dot(direction, axes[1]), Dot(direction, axes[2]) });
+}
+
+} // namespace
+
 LightSums SumLights(const LightingModel& model, const std::vector<DisplayLight>& lights,
   double shininess, const ShadingSample& sample)
 {
@@ -108,6 +135,16 @@ LightSums SumLights(const LightingModel& model, const std::vector<DisplayLight>&
     {
       continue;
     }
+    if (light.Sky || !light.Polygon.empty())
+    {
+      const double share = sample.Visibility ? sample.Visibility[k] : 1.0;
+      const double unit = model.Reflection == ReflectionModel::Physical ? 1.0 / Pi : 1.0;
+      if (!(N == Vec3{}))
+      {
+        sums.Diffuse += share * unit * ExtendedIrradiance(light, sample.Point, N);
+      }
+      continue;
+    }
     const Vec3 position{ light.Position[0], light.Position[1], light.Position[2] };
     const double w = light.Position[3];
     const Vec3 toLight = w == 0.0 ? position : position / w - sample.Point;
@@ -117,7 +154,7 @@ LightSums SumLights(const LightingModel& model, const std::vector<DisplayLight>&
       continue;
     }
     const Vec3 L = toLight / r;
-    double factor = LightFactor(light, r, -L);
+    double factor = LightFactor(light, r, -L) * (light.Web ? WebFactor(light, -L) : 1.0);
     sums.Ambient += factor * light.Ambient;
     factor *= sample.Visibility ? sample.Visibility[k] : 1.0;
     const double nl = Dot(N, L);

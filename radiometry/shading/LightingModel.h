@@ -2,9 +2,11 @@
 #pragma once
 
 #include "radiometry/scene/Vec3.h"
+#include "radiometry/shading/ExtendedLights.h"
 #include "radiometry/shading/Rgb.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace radiometry
@@ -42,6 +44,16 @@ struct DisplayLight
   bool SmoothEdge = false;              // clamp((cos - outer)/(inner - outer), 0, 1)^2
   std::array<double, 3> Attenuation{ { 1.0, 0.0, 0.0 } }; // 1/(a + b r + c r^2); w = 0: none
   bool Enabled = true;
+
+  /// A luminaire: Diffuse and Specular times its relative intensity; about SpotDirection, w = 1.
+  std::shared_ptr<const CandelaWeb> Web;
+  Vec3 Reference{ 1.0, 0.0, 0.0 }; // where C = 0 of the web lies
+  /// An area light: a flat polygon that shines where its corners turn counter-clockwise; Diffuse is
+  /// its exitance, Position is not read. Diffuse light alone, without a highlight.
+  std::vector<Vec3> Polygon;
+  bool PolygonTwoSided = false;
+  /// An environment: diffuse light alone, with Diffuse as a factor. Nothing else is read.
+  std::shared_ptr<const SkyQuadric> Sky;
 };
 
 /// What one side of a surface is made of.
