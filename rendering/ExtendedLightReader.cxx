@@ -13,7 +13,9 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace names = radiometry::names;
@@ -215,8 +217,8 @@ std::vector<AreaLight> ExtendedLightReader::Areas()
       continue;
     }
     AreaLight area;
-    area.First = ids->GetId(0);
-    area.TwoSided = this->Value(names::LightTwoSided, area.First, 0, 0.0) != 0.0;
+    area.Points.assign(ids->begin(), ids->end());
+    area.TwoSided = this->Value(names::LightTwoSided, area.Points[0], 0, 0.0) != 0.0;
     for (const vtkIdType p : *ids)
     {
       double corner[3];

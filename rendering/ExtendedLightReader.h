@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 class vtkDataArray;
@@ -19,7 +20,7 @@ namespace vtkradiometry
 
 struct AreaLight
 {
-  vtkIdType First = 0; // the point whose arrays count
+  std::vector<vtkIdType> Points; // the first is the one whose arrays count
   std::vector<radiometry::Vec3> Corners;
   bool TwoSided = false;
 };

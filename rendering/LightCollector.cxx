@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace vtkradiometry
@@ -142,6 +143,12 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
   const LightArray attached(data, names::AttachedTo);
   const LightArray reference(data, names::ReferenceDirection);
   ExtendedLightReader extended(data);
+  std::vector<AreaLight> areas = extended.Areas();
+  std::set<vtkIdType> corners;
+  for (const AreaLight& area : areas)
+  {
+    corners.insert(area.Points.begin(), area.Points.end());
+  }
   const auto complain = [&result](vtkIdType i, const std::string& what) {
     if (result.Problem.empty())
     {
@@ -159,7 +166,8 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
     const double kind = type.Value(i, 0.0);
     if (kind == 3.0)
     {
-      continue; // the corner of an area light: below
+      result.NotDrawn += corners.count(i) == 0 ? 1 : 0; // else its polygon comes below
+      continue;
     }
     if (kind != 0.0 && kind != 1.0 && kind != 2.0 && kind != 4.0)
     {
@@ -214,9 +222,9 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
     const Vec3& d = light.SpotDirection;
     result.Keys.push_back({ kind, p[0], p[1], p[2], d.x, d.y, d.z });
   }
-  for (AreaLight& area : extended.Areas())
+  for (AreaLight& area : areas)
   {
-    const vtkIdType i = area.First;
+    const vtkIdType i = area.Points.front();
     if (type.Value(i, 0.0) != 3.0 || enabled.Value(i, 1.0) == 0.0)
     {
       continue;

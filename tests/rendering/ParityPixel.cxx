@@ -309,6 +309,10 @@ std::vector<DisplayLight> NudgedLights(const ParityScene& scene, const Vec3& nud
       light.Position[i] += reach * nudge[i];
     }
     light.SpotDirection += Length(light.SpotDirection) * nudge;
+    for (Vec3& corner : light.Polygon)
+    {
+      corner += Length(corner - scene.Eye) * nudge;
+    }
   }
   return lights;
 }

@@ -92,6 +92,15 @@ void ParityScene::Prepare()
       light.SpotDirection = turned(light.SpotDirection);
     }
     light.Position = { { place.x, place.y, place.z, light.Position[3] } };
+    for (Vec3& corner : light.Polygon)
+    {
+      corner = given.Frame == ParityFrame::Object ? this->ToWorld(corner)
+        : given.Frame == ParityFrame::Camera      ? origin + unit * turned(corner)
+                                                  : corner;
+    }
+    light.Reference = given.Frame == ParityFrame::Object ? this->DirectionToWorld(light.Reference)
+      : given.Frame == ParityFrame::Camera               ? turned(light.Reference)
+                                                         : light.Reference;
     light.Attenuation[1] *= this->MetersPerUnit;
     light.Attenuation[2] *= this->MetersPerUnit * this->MetersPerUnit;
     for (Rgb* color : { &light.Ambient, &light.Diffuse, &light.Specular })

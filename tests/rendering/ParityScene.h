@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct ParityLight
 {
   radiometry::DisplayLight Light; // in the coordinates of its frame
   ParityFrame Frame = ParityFrame::Scene;
+  std::shared_ptr<const radiometry::SkyRadiance> Radiance; // of Light.Sky
 };
 
 /// Where a surface's colour comes from.

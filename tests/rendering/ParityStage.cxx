@@ -2,6 +2,7 @@
 #include "ParityStage.h"
 
 #include "radiometry/scene/ArrayNames.h"
+#include "radiometry/scene/CandelaWeb.h"
 
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
@@ -45,6 +46,24 @@ vtkSmartPointer<Array> AddArray(vtkDataSetAttributes* data, const char* name, in
   return array;
 }
 
+/// A candela web as field data.
+void AddWeb(const CandelaWeb& web, const std::string& name, vtkFieldData* data)
+{
+  const auto add = [data](const std::string& text, const std::vector<double>& values) {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(text.c_str());
+    for (const double value : values)
+    {
+      array->InsertNextValue(value);
+    }
+    data->AddArray(array);
+  };
+  add(name, web.GetValues());
+  add(name + "Horizontal", web.GetHorizontal());
+  add(name + "Vertical", web.GetVertical());
+  add(name + "Type", { static_cast<double>(web.GetType()) });
+}
+
 vtkSmartPointer<vtkPolyData> MakeLightData(const ParityScene& scene)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -65,14 +84,41 @@ vtkSmartPointer<vtkPolyData> MakeLightData(const ParityScene& scene)
   const auto attenuation = add(names::Attenuation, 3);
   const auto enabled = add(names::LightEnabled, 1);
   const auto attached = add(names::AttachedTo, 1);
-  for (const ParityLight& given : scene.Lights)
-  {
+  const auto reference = add(names::ReferenceDirection, 3);
+  const auto web = add(names::PhotometricWeb, 1);
+  const auto twoSided = add(names::LightTwoSided, 1);
+  const auto skyModel = add(names::SkyModel, 1);
+  const auto coefficients = add(names::SkyCoefficients, 5);
+  const auto sun = add(names::SunDirection, 3);
+  const auto ground = add(names::GroundRadiance, 1);
+  vtkNew<vtkCellArray> polygons;
+  data->SetPolys(polygons);
+  int webs = 0;
+  const auto insert = [&](const ParityLight& given, const double* p) {
     const DisplayLight& light = given.Light;
     const bool directional = light.Position[3] == 0.0;
     const bool spot = !directional && light.CosCutoff > -1.0;
-    const double* p = light.Position.data();
     points->InsertNextPoint(p);
-    type->InsertNextTuple1(directional ? 2.0 : (spot ? 1.0 : 0.0));
+    type->InsertNextTuple1(light.Sky ? 4.0
+        : !light.Polygon.empty()     ? 3.0
+        : directional                ? 2.0
+        : spot                       ? 1.0
+                                     : 0.0);
+    reference->InsertNextTuple3(light.Reference.x, light.Reference.y, light.Reference.z);
+    web->InsertNextTuple1(light.Web ? webs : -1.0);
+    if (light.Web)
+    {
+      AddWeb(*light.Web, names::PhotometricWeb + std::to_string(webs++), data->GetFieldData());
+    }
+    twoSided->InsertNextTuple1(light.PolygonTwoSided ? 1.0 : 0.0);
+    const SkyRadiance* sky = given.Radiance.get();
+    const SkyFrame frame(light.SpotDirection, light.Reference);
+    const Vec3 toSun = frame.ToWorld(sky ? sky->ToSun() : Vec3{ 0.0, 0.0, 1.0 });
+    const std::array<double, 5> none{};
+    skyModel->InsertNextTuple1(sky ? static_cast<double>(sky->Model()) : 0.0);
+    coefficients->InsertNextTuple(sky ? sky->Coefficients().data() : none.data());
+    sun->InsertNextTuple3(toSun.x, toSun.y, toSun.z);
+    ground->InsertNextTuple1(sky ? sky->GroundRadiance() : 0.0);
     intensity->InsertNextTuple3(light.Diffuse.r, light.Diffuse.g, light.Diffuse.b);
     specular->InsertNextTuple3(light.Specular.r, light.Specular.g, light.Specular.b);
     ambient->InsertNextTuple3(light.Ambient.r, light.Ambient.g, light.Ambient.b);
@@ -85,6 +131,26 @@ vtkSmartPointer<vtkPolyData> MakeLightData(const ParityScene& scene)
     attenuation->InsertNextTuple(light.Attenuation.data());
     enabled->InsertNextTuple1(light.Enabled ? 1.0 : 0.0);
     attached->InsertNextTuple1(static_cast<double>(given.Frame));
+  };
+  for (const ParityLight& given : scene.Lights)
+  {
+    if (given.Light.Polygon.empty())
+    {
+      insert(given, given.Light.Position.data());
+    }
+  }
+  for (const ParityLight& given : scene.Lights)
+  {
+    if (!given.Light.Polygon.empty())
+    {
+      polygons->InsertNextCell(static_cast<int>(given.Light.Polygon.size()));
+    }
+    for (const Vec3& corner : given.Light.Polygon)
+    {
+      polygons->InsertCellPoint(points->GetNumberOfPoints());
+      const double p[3] = { corner.x, corner.y, corner.z };
+      insert(given, p);
+    }
   }
   return data;
 }
@@ -233,7 +299,13 @@ void AddShares(vtkPolyData* block, const ParityScene& scene, std::size_t first, 
     const bool spot = given.Light.CosCutoff > -1.0;
     const double finite[7] = { spot ? 1.0 : 0.0, p[0], p[1], p[2], d.x, d.y, d.z };
     const double directional[7] = { 2.0, p[0], p[1], p[2], -p[0], -p[1], -p[2] };
-    keys->InsertNextTuple(p[3] == 0.0 ? directional : finite);
+    const double sky[7] = { 4.0, p[0], p[1], p[2], d.x, d.y, d.z };
+    const Vec3 corner = given.Light.Polygon.empty() ? Vec3{} : given.Light.Polygon.front();
+    const double area[7] = { 3.0, corner.x, corner.y, corner.z, 0.0, 0.0, 0.0 };
+    keys->InsertNextTuple(given.Light.Sky ? sky
+        : !given.Light.Polygon.empty()    ? area
+        : p[3] == 0.0                     ? directional
+                                          : finite);
   }
   block->GetFieldData()->AddArray(keys);
 }

@@ -13,6 +13,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkLight,
     vtkPolyDataMapper,
 )
+from vtkradiometry import vtkAreaLightSource, vtkEnvironmentLightSource
 from vtkradiometry.vtkRadiometryRendering import vtkPhongGouraudMapper
 
 
@@ -40,8 +41,8 @@ def test_point_light_in_physical_units():
     assert np.allclose(w.at(0, 0), math.pi * expected, rtol=2e-6)
 
 
-def test_luminaire_is_drawn_with_its_mean_intensity():
-    # A web of cos(gamma) sends pi of its greatest intensity: a quarter of it on average.
+def test_luminaire_is_drawn_with_its_web():
+    # A web of cos(gamma), straight below and at 14 degrees.
     def with_web(index):
         data = lights({"Position": (0, 0, 2), "Intensity": (8, 4, 2), "PhotometricWeb": index})
         gamma = np.linspace(0, 90, 181)
@@ -56,9 +57,13 @@ def test_luminaire_is_drawn_with_its_mean_intensity():
         w.mapper.SetLightData(data)
         return w
 
-    plain = lit({"Position": (0, 0, 2), "Intensity": (8, 4, 2)}).at(0, 0)
-    assert np.allclose(with_web(0).at(0, 0), plain / 4, rtol=1e-4)
-    assert np.allclose(with_web(-1).at(0, 0), plain, rtol=1e-6)
+    plain = lit({"Position": (0, 0, 2), "Intensity": (8, 4, 2)})
+    with_cosine = with_web(0)
+    for x in (1 / 60, 0.5 + 1 / 60):
+        cosine = 2 / math.sqrt(4 + x * x + (1 / 60) ** 2)
+        assert np.allclose(with_cosine.at(x, 0), cosine * plain.at(x, 0), rtol=1e-4), x
+    assert "Luminaire" in with_cosine.mapper.GetShaderFeatures()
+    assert np.allclose(with_web(-1).at(0, 0), plain.at(0, 0), rtol=1e-6)
     missing = with_web(3)
     errors = Errors(missing.mapper)
     assert (missing.at(0, 0) == 0).all()
@@ -187,11 +192,46 @@ def test_bad_lights_are_named_once_and_the_others_drawn():
     assert len(errors.texts) == 1 and "Points" in errors.texts[0]
 
 
-def test_area_and_environment_lights_are_counted_not_drawn():
-    w = lit({"LightType": 2, "Intensity": (math.pi,) * 3}, {"LightType": 3}, {"LightType": 4})
+def test_area_light_above_a_floor():
+    # F = 4/pi/sqrt(2) atan(1/sqrt(2)) below the middle of a square of side 2 one above.
+    source = vtkAreaLightSource()
+    source.SetPosition(1 / 60, 1 / 60, 1)  # above the middle of a pixel
+    source.SetDirection(0, 0, -1)
+    source.SetWidth(2)
+    source.SetHeight(2)
+    source.SetIntensity(5.0)
+    source.Update()
+    w = Window()
+    w.mapper.SetInputDataObject(square())
+    w.mapper.SetLightData(source.GetOutput())
+    factor = 4 / math.pi / math.sqrt(2) * math.atan(1 / math.sqrt(2))
+    assert np.allclose(w.at(1 / 60, 1 / 60), 5 * factor / math.pi, rtol=2e-5)
+    assert w.mapper.GetNumberOfLightsDrawn() == 1
+    assert w.mapper.GetNumberOfLightsNotDrawn() == 0
+    source.SetDirection(0, 0, 1)  # seen from behind
+    source.Update()
+    assert (w.at(0, 0) == 0).all()
+
+
+def test_environment_lights_a_floor():
+    source = vtkEnvironmentLightSource()
+    source.Update()
+    radiance = source.GetOutput().GetPointData().GetArray("Intensity").GetComponent(0, 0)
+    w = Window()
+    w.mapper.SetInputDataObject(square())
+    w.mapper.SetLightData(source.GetOutput())
+    uniform = lights({"LightType": 4, "Intensity": (1.0, 2.0, 3.0)})
+    first = w.at(0, 0)
+    assert first[0] > 0 and radiance > 0
+    w.mapper.SetLightData(uniform)
+    assert np.allclose(w.at(0, 0), (1, 2, 3), rtol=1e-6)  # E = pi L, and so L of a white surface
+
+
+def test_points_of_area_lights_without_a_polygon_are_counted():
+    w = lit({"LightType": 2, "Intensity": (math.pi,) * 3}, {"LightType": 3})
     assert np.allclose(w.at(0, 0), 1, rtol=1e-6)
     assert w.mapper.GetNumberOfLightsDrawn() == 1
-    assert w.mapper.GetNumberOfLightsNotDrawn() == 2
+    assert w.mapper.GetNumberOfLightsNotDrawn() == 1
 
 
 def test_degenerate_normals_reflect_nothing():
