@@ -12,9 +12,11 @@
  *           back-face property), scalar colours and block colours as usual
  *   Cost    Flat and Phong O(pixels x lights), Gouraud O(vertices x lights); the generated shader
  *           holds only what the lights and the material need
- *           A luminaire with a candela web is drawn as a point light of the same flux
- *   Fails   a light that cannot be drawn is left out and named by an error event, once; area and
- *           environment lights are not drawn by this mapper (GetNumberOfLightsNotDrawn)
+ *           Luminaires have their candela webs, area lights their exact diffuse light (Lambert's
+ *           contour formula), environments a quadratic function of the normal; neither of the two has
+ *           highlights (ExtendedLights.h)
+ *   Shadows as far as the surface knows them: LightVisibility (UseLightVisibility)
+ *   Fails   a light that cannot be drawn is left out and named by an error event, once
  *
  * Points, lines, edges, vertices and selection are drawn by VTK as always.
  */
@@ -324,8 +326,8 @@ public:
 
   ///@{
   /**
-   * Lights in the last frame: those drawn, and enabled ones that this mapper has no formula for
-   * (area, environment).
+   * Lights in the last frame: those drawn, and points of area lights (LightType 3) that are no corner
+   * of a polygon.
    */
   vtkGetMacro(NumberOfLightsDrawn, int);
   vtkGetMacro(NumberOfLightsNotDrawn, int);
