@@ -4,8 +4,6 @@
 #include "vtkPhongGouraudMapper.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
-#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
@@ -13,7 +11,6 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace vtkradiometry
 {
@@ -83,37 +80,6 @@ bool PropGroups::OtherIsTranslucent() const
 {
   return std::any_of(this->Other.begin(), this->Other.end(),
     [](vtkProp* prop) { return prop->HasTranslucentPolygonalGeometry() != 0; });
-}
-
-void SortBackToFront(std::vector<vtkProp*>& props, vtkRenderer* renderer)
-{
-  vtkCamera* camera = renderer->GetActiveCamera();
-  double eye[3];
-  double along[3];
-  camera->GetPosition(eye);
-  camera->GetDirectionOfProjection(along);
-  const bool parallel = camera->GetParallelProjection() != 0;
-  const auto distance = [&](vtkProp* prop) {
-    const double* b = prop->GetBounds();
-    if (!b || b[0] > b[1])
-    {
-      return 0.0;
-    }
-    const double to[3] = { 0.5 * (b[0] + b[1]) - eye[0], 0.5 * (b[2] + b[3]) - eye[1],
-      0.5 * (b[4] + b[5]) - eye[2] };
-    return parallel ? vtkMath::Dot(to, along) : vtkMath::Norm(to);
-  };
-  std::vector<std::pair<double, vtkProp*>> sorted;
-  for (vtkProp* prop : props)
-  {
-    sorted.emplace_back(distance(prop), prop);
-  }
-  std::stable_sort(sorted.begin(), sorted.end(),
-    [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (std::size_t i = 0; i < props.size(); ++i)
-  {
-    props[i] = sorted[i].second;
-  }
 }
 
 OnlyThese::OnlyThese(vtkRenderer* renderer, std::vector<vtkProp*>& props)

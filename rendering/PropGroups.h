@@ -30,9 +30,6 @@ struct PropGroups
 /// Whether every surface of a prop is drawn by a vtkPhongGouraudMapper whose colours are light.
 bool IsSceneLinear(vtkProp* prop);
 
-/// Sorts from far to near by the middle of the bounds, for blending.
-void SortBackToFront(std::vector<vtkProp*>& props, vtkRenderer* renderer);
-
 /// While it lives, the renderer draws these props only, also in passes that ask the renderer itself
 /// and not the render state (vtkPVDefaultPass).
 class OnlyThese

@@ -3,6 +3,7 @@
 
 #include "DisplayPassParts.h"
 #include "FloatTarget.h"
+#include "LinearPeeling.h"
 #include "PropGroups.h"
 #include "vtkLinearFloatMeanFS.h"
 #include "vtkLinearFloatShowFS.h"
@@ -91,6 +92,7 @@ struct vtkLinearFloatPass::Internals
   vtkNew<vtkLightsPass> Lights;
   vtkNew<vtkOpaquePass> Opaque;
   vtkNew<vtkTranslucentPass> Translucent;
+  vtkNew<vtkradiometry::LinearPeeling> Peeling;
   vtkNew<vtkVolumetricPass> Volumes;
 
   int Width = 0;
@@ -160,17 +162,18 @@ void vtkLinearFloatPass::Internals::DrawScene(vtkLinearFloatPass* self, vtkRende
     self->NumberOfRenderedProps += self->DelegatePass->GetNumberOfRenderedProps();
     return;
   }
-  std::vector<vtkProp*> sorted = props;
-  vtkradiometry::SortBackToFront(sorted, renderer);
-  vtkRenderState blended(renderer);
-  blended.SetPropArrayAndCount(sorted.data(), static_cast<int>(sorted.size()));
-  blended.SetFrameBuffer(target.Buffer);
   this->Lights->Render(&inner);
   this->Opaque->Render(&inner);
-  this->Translucent->Render(&blended);
-  this->Volumes->Render(&blended);
-  self->NumberOfRenderedProps += this->Opaque->GetNumberOfRenderedProps() +
-    this->Translucent->GetNumberOfRenderedProps() + this->Volumes->GetNumberOfRenderedProps();
+  if (this->HasNearest && &target == &this->Seen)
+  {
+    this->Translucent->Render(&inner); // for its depth, in any order
+  }
+  else
+  {
+    this->Peeling->Blend(renderer, props, target);
+  }
+  this->Volumes->Render(&inner);
+  self->NumberOfRenderedProps += static_cast<int>(props.size());
 }
 
 //------------------------------------------------------------------------------
@@ -597,6 +600,7 @@ void vtkLinearFloatPass::ReleaseGraphicsResources(vtkWindow* w)
     parts.Opaque->ReleaseGraphicsResources(w);
     parts.Translucent->ReleaseGraphicsResources(w);
     parts.Volumes->ReleaseGraphicsResources(w);
+    parts.Peeling->ReleaseGraphicsResources(w);
     for (Target* target : { &parts.Light, &parts.Seen, &parts.Other, &parts.Pixel })
     {
       target->Release(w);

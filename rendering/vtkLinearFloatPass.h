@@ -10,17 +10,17 @@
  *   Place   renderer->SetPass(linear) shows the linear values as they are (clamped by the window);
  *           vtkOpenColorIOPass is this pass with a display transform
  *   Model   of opaque surfaces the nearest is seen, whichever group it belongs to, sample by sample.
- *           Translucent light is blended with the light behind it, linearly; the share a of a pixel
+ *           Translucent light is blended with the light behind it, linearly and in the right order
+ *           (depth peeling in floats); the share a of a pixel
  *           that it covers lies over what else is there as shown a + (1 - a) other, where glare
  *           brighter than a covers as much as it is bright. Other
  *           translucent surfaces and volumes are blended over that, as VTK does: one that lies
  *           behind translucent light is drawn as if it lay before it
  *   Units   whatever was drawn: radiance in W/(m^2 sr) from vtkPhongGouraudMapper
- *   Cost    20 bytes a sample, 8 bytes a pixel more where other opaque props are; the light is drawn
- *           twice where some of it is translucent and other opaque props are there
- *   Limits  background: alpha 0 and no light unless KeepBackground; translucent actors are blended
- *           from far to near by the middle of their bounds, the polygons of one in drawing order;
- *           a translucent actor is drawn by this pass, not by the renderer's depth peeling
+ *   Cost    20 bytes a sample, 8 bytes a pixel more where other opaque props are; with translucent
+ *           light 56 bytes a sample more, and it is drawn once a layer; twice all of that where other
+ *           opaque props are there
+ *   Limits  background: alpha 0 and no light unless KeepBackground; at most 64 translucent layers
  *   Fails   no OpenGL float targets: an error event, GetColor() returns null
  *
  * With a delegate, the delegate draws the light (it is given these props only). During hardware

@@ -3,7 +3,7 @@
 keeps its bytes, and the nearest is seen whichever group it belongs to."""
 import numpy as np
 
-from drawing import Errors, Window, add, run, square
+from drawing import Errors, Window, add, polydata, run, square
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkOutputWindow
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -154,6 +154,28 @@ def test_translucent_light_is_blended_linearly():
     view = View(light(0.2, 0.2, 0.8, 0.25), light(0.8, 0.0, 0.8, 0.5), light(1.6, -0.5))
     expected = 0.25 * 0.2 + 0.75 * (0.5 * 0.8 + 0.5 * 1.6)
     assert np.allclose(view.draw()[30, 30, :3], expected, rtol=1e-6)
+    # Nor does the order of the polygons of one actor, or where they cross.
+    zs = (0.3, -0.2, 0.1, 0.4, -0.4)
+    points = [(x, y, z) for z in zs for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    surface = polydata(points, [tuple(range(4 * i, 4 * i + 4)) for i in range(len(zs))])
+    add(surface.GetCellData(), "F", [1.0 + i for i in range(len(zs))])
+    mapper = vtkPhongGouraudMapper()
+    mapper.SetInputDataObject(surface)
+    mapper.SetFieldModeToOn()
+    mapper.SetFieldArrayName("F")
+    expected = 0.0
+    for z, value in sorted(zip(zs, (1.0 + i for i in range(len(zs))))):
+        expected = 0.3 * value + 0.7 * expected
+    for samples in (1, 2):
+        view = View(actor(mapper, 0.3))
+        view.target.SetSamples(samples)
+        picture = view.draw()
+        assert np.allclose(picture[30, 30, :3], expected, rtol=1e-6), picture[30, 30]
+        assert np.allclose(picture[30, 30, 3], 1 - 0.7 ** len(zs), rtol=1e-6)
+    builds = mapper.GetNumberOfShaderBuilds()
+    view.draw()
+    view.draw()
+    assert mapper.GetNumberOfShaderBuilds() == builds
 
 
 def test_translucent_light_over_others():
