@@ -56,12 +56,6 @@ Scene MakePlainScene(Random& random)
 /// What the parts of a combination leave contradictory.
 void Settle(Scene& scene)
 {
-  if (scene.Alpha < 1.0 && scene.TrianglesPerBlock != 0)
-  {
-    // VTK 9.2 draws blocks in the order of their addresses: layers of several have no order.
-    scene.TrianglesPerBlock = 0;
-    scene.Colors = scene.Colors == ParityColors::Blocks ? ParityColors::Property : scene.Colors;
-  }
   // Colours of the data are those of both sides, as in VTK.
   scene.HasBack = scene.HasBack && scene.Colors != ParityColors::Scalars;
   scene.Model.TwoSided = scene.Model.TwoSided || scene.HasBack;

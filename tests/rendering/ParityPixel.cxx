@@ -34,7 +34,7 @@ struct Hit
   double Depth = std::numeric_limits<double>::infinity();
   std::array<double, 3> Weights{ { 0, 0, 0 } };
   bool Grazing = false;   // seen within 1 degree of edge-on
-  bool Contested = false; // another triangle lies right behind it
+  bool Contested = false; // another triangle lies right behind it: which is nearer?
 };
 
 Ray RayThrough(const ParityScene& scene, double x, double y, int size)
@@ -73,11 +73,13 @@ std::vector<Hit> Intersect(const ParityScene& scene, const Ray& ray)
       hits.push_back(hit);
     }
   }
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.Depth < b.Depth; });
+  for (std::size_t i = 1; i < hits.size(); ++i)
+  {
+    hits[i - 1].Contested = hits[i].Depth - hits[i - 1].Depth < 1e-3 * hits[i - 1].Depth;
+  }
   if (scene.Alpha == 1.0 && hits.size() > 1)
   {
-    std::sort(
-      hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.Depth < b.Depth; });
-    hits[0].Contested = hits[1].Depth - hits[0].Depth < 1e-3 * hits[0].Depth;
     hits.resize(1);
   }
   return hits;
@@ -336,9 +338,9 @@ ParityPixel Evaluate(
   }
   const std::vector<DisplayLight>& lights = nudged.empty() ? scene.WorldLights : nudged;
   pixel.Depth = hits[0].Depth;
-  for (const Hit& hit : hits) // layer upon layer, as they are drawn
+  for (auto hit = hits.rbegin(); hit != hits.rend(); ++hit) // layer upon layer, the nearest last
   {
-    const Shaded shaded = ShadeHit(scene, ray, hit, lights, nudge);
+    const Shaded shaded = ShadeHit(scene, ray, *hit, lights, nudge);
     pixel.Color = scene.Alpha * shaded.Color + (1.0 - scene.Alpha) * pixel.Color;
     pixel.Alpha = scene.Alpha + (1.0 - scene.Alpha) * pixel.Alpha;
     pixel.Normal = shaded.Normal;
