@@ -126,7 +126,9 @@ class Stage:
         for i in range(count):
             self.renderer.AddLight(light(kind, i, count))
         if target == "float":
-            self.renderer.SetPass(vtkLinearFloatPass())
+            self.target = vtkLinearFloatPass()
+            self.target.AllSceneLinearOn()  # VTK's mapper too
+            self.renderer.SetPass(self.target)
         self.window = vtkRenderWindow()
         self.window.SetOffScreenRendering(1)
         self.window.SetMultiSamples(0)
