@@ -134,9 +134,12 @@ ShadingChoice::State ShadingChoice::Decide(const radiometry::ShadedScene& scene,
   const std::size_t size = this->Object.Size();
   const std::chrono::duration<double> budget(
     share < AtOnce ? share * std::min(sinceLast, LongestFrame) : 1e9);
+  // Steps of some 0.5 ms, so that the clock is looked at often enough.
+  const std::size_t step =
+    std::clamp<std::size_t>(16384 / std::max<std::size_t>(1, scene.Lights.size()), 16, 4096);
   while (this->Next < size && share > 0.0)
   {
-    const std::size_t end = std::min(size, this->Next + 1024);
+    const std::size_t end = std::min(size, this->Next + step);
     MarkGouraud(scene, this->World, this->Next, end, tolerance, this->Marks);
     for (; this->Next < end; ++this->Next)
     {

@@ -441,7 +441,7 @@ double ShadingBound(const LightingModel& model, const std::vector<DisplayLight>&
 void MarkGouraud(const ShadedScene& scene, const ShadedMesh& mesh, std::size_t begin,
   std::size_t end, double tolerance, std::vector<float>& flags)
 {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 256),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 16),
     [&](const tbb::blocked_range<std::size_t>& range) {
       for (std::size_t t = range.begin(); t < range.end(); ++t)
       {
