@@ -269,6 +269,14 @@ void vtkPhongGouraudHelper::DecideShading(
     reason = "nothing is lit";
     return;
   }
+  for (const char* kind : { "Web", "Area", "Sky" })
+  {
+    if (this->Lights.Features.count(kind))
+    {
+      reason = "Phong: there is no bound for luminaires with a web, area lights and skies";
+      return;
+    }
+  }
   if (!this->HasPointNormals())
   {
     reason = "Phong: without point normals each pixel is lit with its cell's normal";
