@@ -13,7 +13,8 @@ an exponent) and both mappers light it from the same ones. Rows:
   everything  ours, Phong, with the code of every effect in the shader (EveryEffect) though no more is seen
   gouraud, flat, auto   ours, the same model as "phong"
 
-The camera turns by a degree a frame, so that whatever depends on it is done anew. Rows of one case take
+The camera turns by a degree a frame, so that whatever depends on it is done anew (so Auto draws glossy
+surfaces by Phong: its decision would not last; matte ones are decided before the frames that count). Rows of one case take
 turns, frame by frame, for as many frames as a few seconds hold; the figure is the lower quartile over the frames of the processor's time of the whole
 process (llvmpipe's threads included), which other programs disturb less than the clock; the clock's is
 given too. `setup` is the clock's time of the first frame: shaders are generated, compiled and buffers are
@@ -50,6 +51,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from radiosity.record import provenance, write  # noqa: E402
 
 SECONDS = 6.0  # a case
+DECISION = 30.0  # s: the longest that is waited for
 KEEP = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": "2000000000", "MALLOC_TOP_PAD_": "100000000"}
 KINDS = ("directional", "point", "spot")
 
@@ -143,6 +145,13 @@ class Stage:
         self.draw()
         self.setup = time.perf_counter() - begin
         self.draw()
+        # Shading Auto decides in its share of the frames' time: until it has, but not for ever.
+        begin, self.deciding = time.perf_counter(), 1
+        while row == "auto" and time.perf_counter() - begin < DECISION and (
+                "deciding" in self.mapper.GetShadingReason()
+                or "frame before" in self.mapper.GetShadingReason()):
+            self.draw()
+            self.deciding += 1
         self.clock, self.processor = [], []
 
     def draw(self):
@@ -164,7 +173,10 @@ class Stage:
         if isinstance(self.mapper, vtkPhongGouraudMapper):
             out["features"] = self.mapper.GetShaderFeatures()
             out["builds"] = self.mapper.GetNumberOfShaderBuilds()
-            out["shading"] = ("flat", "gouraud", "phong")[self.mapper.GetShadingUsed()]
+            out["reason"] = self.mapper.GetShadingReason()
+            out["gouraud share"] = self.mapper.GetGouraudShare()
+            out["frames until decided"] = self.deciding
+            out["shading"] = ("flat", "gouraud", "phong", "each")[self.mapper.GetShadingUsed()]
         return out
 
 

@@ -269,7 +269,7 @@ void vtkPhongGouraudHelper::DecideShading(
     reason = "nothing is lit";
     return;
   }
-  for (const char* kind : { "Web", "Area", "Sky" })
+  for (const char* kind : { "Luminaire", "Area", "Sky" })
   {
     if (this->Lights.Features.count(kind))
     {

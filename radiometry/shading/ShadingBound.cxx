@@ -243,6 +243,11 @@ Quantity Cone(const DisplayLight& light, const Quantity& cosine)
   return result;
 }
 
+bool IsBlack(const Rgb& c)
+{
+  return c.r == 0.0 && c.g == 0.0 && c.b == 0.0;
+}
+
 /// What of a triangle is the same for all lights.
 struct Place
 {
@@ -274,6 +279,9 @@ Incidence IncidenceOf(const LightingModel& model, const DisplayLight& light, con
   bool highlight)
 {
   Incidence in;
+  // The fall-off alone counts for ambient light and for a legacy highlight.
+  const bool factor = !IsBlack(light.Ambient) ||
+    (highlight && model.Reflection != ReflectionModel::Physical);
   Corners toLight;
   const Vec3 position{ light.Position[0], light.Position[1], light.Position[2] };
   const double w = light.Position[3];
@@ -298,16 +306,22 @@ Incidence IncidenceOf(const LightingModel& model, const DisplayLight& light, con
     const Quantity normal =
       DotProduct(place.Triangle.Normals, toLight) * place.InverseNormal; // r N.L
     const auto& a = light.Attenuation;
-    inverse = InverseRoot(squared);
-    in.Factor = InversePolynomial(squared, a[0], a[1], a[2], 0.0);
     in.Irradiance = normal * InversePolynomial(squared, 0.0, a[0], a[1], a[2]);
-    in.Cosine = normal * inverse;
+    if (factor)
+    {
+      in.Factor = InversePolynomial(squared, a[0], a[1], a[2], 0.0);
+    }
+    if (highlight || light.CosCutoff > -1.0)
+    {
+      inverse = InverseRoot(squared);
+      in.Cosine = normal * inverse;
+    }
     if (light.CosCutoff > -1.0)
     {
       const Vec3 axis = -Normalized(light.SpotDirection);
       const Quantity cone =
         Cone(light, DotProduct(toLight, { { axis, axis, axis } }) * inverse);
-      in.Factor = in.Factor * cone;
+      in.Factor = factor ? in.Factor * cone : Quantity{};
       in.Irradiance = in.Irradiance * cone;
     }
   }
@@ -360,11 +374,6 @@ Parts PartsOf(const LightingModel& model, const Incidence& in, int side, bool hi
     }
   }
   return parts;
-}
-
-bool IsBlack(const Rgb& c)
-{
-  return c.r == 0.0 && c.g == 0.0 && c.b == 0.0;
 }
 
 Rgb Magnitude(const Rgb& c)
