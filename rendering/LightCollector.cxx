@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LightCollector.h"
 
+#include "BandColors.h"
 #include "ExtendedLightReader.h"
 
 #include "radiometry/scene/ArrayNames.h"
@@ -35,8 +36,9 @@ using radiometry::Vec3;
 class LightArray
 {
 public:
-  LightArray(vtkPolyData* data, const char* name)
+  LightArray(vtkPolyData* data, const char* name, const BandColors* colors = nullptr)
     : Name(name)
+    , Colors(colors)
     , Array(data->GetPointData()->GetArray(name))
   {
   }
@@ -58,21 +60,13 @@ public:
     {
       return absent;
     }
-    const int bands = this->Array->GetNumberOfComponents();
-    if (bands == 3)
-    {
-      return { this->Value(i, 0.0, 0), this->Value(i, 0.0, 1), this->Value(i, 0.0, 2) };
-    }
-    double sum = 0.0;
-    for (int b = 0; b < bands; ++b)
-    {
-      sum += this->Value(i, 0.0, b);
-    }
-    return (sum / bands) * Rgb{ 1.0, 1.0, 1.0 };
+    const std::array<double, 3> rgb = this->Colors->Of(this->Array, i);
+    return { rgb[0], rgb[1], rgb[2] };
   }
   const char* Name;
 
 private:
+  const BandColors* Colors; // of arrays of bands
   vtkDataArray* Array;
 };
 
@@ -131,15 +125,16 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
 {
   namespace names = radiometry::names;
   const LightArray type(data, names::LightType);
-  const LightArray intensity(data, names::Intensity);
+  const BandColors colors(data->GetFieldData(), radiometry::imaging::BandValues::Power);
+  const LightArray intensity(data, names::Intensity, &colors);
   const LightArray direction(data, names::Direction);
   const LightArray cutoffs(data, names::SpotCutoff);
   const LightArray inner(data, names::SpotInnerCutoff);
   const LightArray exponent(data, names::SpotExponent);
   const LightArray attenuation(data, names::Attenuation);
   const LightArray enabled(data, names::LightEnabled);
-  const LightArray ambient(data, names::AmbientColor);
-  const LightArray specular(data, names::SpecularColor);
+  const LightArray ambient(data, names::AmbientColor, &colors);
+  const LightArray specular(data, names::SpecularColor, &colors);
   const LightArray attached(data, names::AttachedTo);
   const LightArray reference(data, names::ReferenceDirection);
   ExtendedLightReader extended(data);
@@ -157,6 +152,10 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
       result.Problem = text.str();
     }
   };
+  if (!colors.GetProblem().empty() && result.Problem.empty())
+  {
+    result.Problem = "lights: " + colors.GetProblem();
+  }
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     if (enabled.Value(i, 1.0) == 0.0)

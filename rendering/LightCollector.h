@@ -43,7 +43,7 @@ struct CollectedLights
 /// arrays (docs/arrays.md).
 ///   Luminaires have their candela webs, area lights their polygons, environments the low degrees of
 ///   their irradiance (ExtendedLights.h).
-///   One band is grey, three are RGB, any other number is the grey of its mean.
+///   Bands: BandColors.h.
 ///   Lights whose values cannot be drawn (not finite, wrong cone, attenuation without a positive
 ///   term) are left out and the first is named in Problem.
 CollectedLights CollectFromData(vtkDataObject* lights);

@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 
+using vtkradiometry::BandColors;
 using vtkradiometry::DataOf;
 using vtkradiometry::DrawnBlock;
 
@@ -29,25 +30,6 @@ namespace
 {
 
 using radiometry::Vec3;
-
-/// The bands of one tuple as RGB: three are taken as they are, any other number by their mean.
-std::array<float, 3> ToRgb(vtkDataArray* field, vtkIdType tuple)
-{
-  const int bands = field->GetNumberOfComponents();
-  if (bands == 3)
-  {
-    return { { static_cast<float>(field->GetComponent(tuple, 0)),
-      static_cast<float>(field->GetComponent(tuple, 1)),
-      static_cast<float>(field->GetComponent(tuple, 2)) } };
-  }
-  double sum = 0.0;
-  for (int b = 0; b < bands; ++b)
-  {
-    sum += field->GetComponent(tuple, b);
-  }
-  const float grey = static_cast<float>(sum / bands);
-  return { { grey, grey, grey } };
-}
 
 Vec3 PointAt(vtkPolyData* block, vtkIdType id)
 {
@@ -196,6 +178,20 @@ vtkPhongGouraudHelper::BlockField vtkPhongGouraudHelper::FindField(vtkPolyData* 
   return field;
 }
 
+BandColors vtkPhongGouraudHelper::ColorsOfField(vtkPolyData* block)
+{
+  using radiometry::imaging::BandValues;
+  const bool reflects =
+    this->Mapper()->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE;
+  const BandColors colors(
+    block->GetFieldData(), reflects ? BandValues::Reflectance : BandValues::Power);
+  if (!colors.GetProblem().empty())
+  {
+    vtkErrorWithObjectMacro(this->Mapper(), << colors.GetProblem());
+  }
+  return colors;
+}
+
 bool vtkPhongGouraudHelper::GetNeedToRebuildBufferObjects(vtkRenderer* ren, vtkActor* act)
 {
   return this->Superclass::GetNeedToRebuildBufferObjects(ren, act) ||
@@ -287,24 +283,24 @@ void vtkPhongGouraudHelper::AppendField(vtkPolyData* block, bool newPoints)
   }
   this->FieldOfShared[points] = front;
   const vtkIdType count = block->GetNumberOfPoints();
-  this->AppendPointField("radiometryFieldMC", front, count);
+  const BandColors colors = this->ColorsOfField(block);
+  this->AppendPointField("radiometryFieldMC", front, count, colors);
   if (this->FieldOfBack)
   {
-    this->AppendPointField("radiometryFieldBackMC", back, count);
+    this->AppendPointField("radiometryFieldBackMC", back, count, colors);
   }
 }
 
 void vtkPhongGouraudHelper::AppendPointField(
-  const char* attribute, vtkDataArray* field, vtkIdType points)
+  const char* attribute, vtkDataArray* field, vtkIdType points, const BandColors& colors)
 {
   vtkNew<vtkFloatArray> values;
   values->SetNumberOfComponents(3);
   values->SetNumberOfTuples(points);
-  for (vtkIdType i = 0; i < points; ++i)
+  values->Fill(0.0);
+  for (vtkIdType i = 0; field && i < points; ++i)
   {
-    const std::array<float, 3> rgb =
-      field ? ToRgb(field, i) : std::array<float, 3>{ { 0.0f, 0.0f, 0.0f } };
-    values->SetTypedTuple(i, rgb.data());
+    values->SetTuple(i, colors.Of(field, i).data());
   }
   this->VBOs->AppendDataArray(attribute, values, VTK_FLOAT);
 }
@@ -356,12 +352,13 @@ void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
     const BlockField field = this->FindField(block);
     if (fields && field.OfCells)
     {
+      const BandColors colors = this->ColorsOfField(block);
       for (std::size_t side = 0; side < sides; ++side)
       {
         vtkDataArray* array = side == 1 && field.Back ? field.Back : field.Front;
         for (std::size_t i = 0; i < map->GetSize(); ++i)
         {
-          const std::array<float, 3> rgb = ToRgb(array, map->GetValue(i));
+          const std::array<double, 3> rgb = colors.Of(array, map->GetValue(i));
           const std::size_t texel = (static_cast<std::size_t>(offsets[0]) + i) * sides + side;
           SetTexel(fieldTexels, texel, rgb[0], rgb[1], rgb[2]);
         }

@@ -210,9 +210,15 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     if (extended && shading == vtkPhongGouraudMapper::AUTO)
     {
       shading = vtkPhongGouraudMapper::PHONG;
+      this->AutoReason = "Phong: luminaires, area lights and skies have no bound";
     }
     if (highlights || shadows)
     {
+      if (shading == vtkPhongGouraudMapper::AUTO)
+      {
+        this->AutoReason = highlights ? "Phong: highlights on a field are drawn pixel by pixel"
+                                      : "Phong: shadows that the simulation knows";
+      }
       // Highlights are drawn pixel by pixel, and so are shares of light.
       const bool flat = shading == vtkPhongGouraudMapper::FLAT;
       shading = flat ? vtkPhongGouraudMapper::FLAT : vtkPhongGouraudMapper::PHONG;

@@ -9,6 +9,7 @@
 #ifndef vtkPhongGouraudHelper_h
 #define vtkPhongGouraudHelper_h
 
+#include "BandColors.h"
 #include "ColorSteps.h"
 #include "LightCollector.h"
 #include "ShadingChoice.h"
@@ -113,7 +114,10 @@ private:
     bool OfCells = false;
   };
   BlockField FindField(vtkPolyData* block);
-  void AppendPointField(const char* attribute, vtkDataArray* field, vtkIdType points);
+  void AppendPointField(const char* attribute, vtkDataArray* field, vtkIdType points,
+    const vtkradiometry::BandColors& colors);
+  /// What the bands of a block's field look like.
+  vtkradiometry::BandColors ColorsOfField(vtkPolyData* block);
   /// False colour: what a block's colours are mapped from, and through what.
   struct BlockScalars
   {

@@ -224,8 +224,9 @@ public:
   ///@{
   /**
    * Off (default): the surface is lit by the lights. On: the array FieldArrayName times FieldScale
-   * is the colour, scene-linear and without clamping: one band grey, three RGB, any other number
-   * the grey of its mean. Point data is interpolated, cell data is constant over a cell; a block
+   * is the colour, scene-linear and without clamping: one band grey, three RGB, other numbers
+   * through the CIE 1931 observer where field data Wavelengths [nm] stands for as many, else the grey
+   * of their mean. Point data is interpolated, cell data is constant over a cell; a block
    * without the array is black. Where the surface is two-sided, an array of that name with "Back"
    * after it (RadiosityBack) is what the back shows; without one, both sides show the same.
    * Reflectance: the array is the diffuse reflectance that the lights

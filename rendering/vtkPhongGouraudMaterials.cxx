@@ -22,6 +22,7 @@ namespace
 {
 
 namespace names = radiometry::names;
+using vtkradiometry::BandColors;
 
 /// Front, then back: diffuse reflectance and exponent, specular reflectance, emitted radiance.
 using Material = std::array<float, 24>;
@@ -53,24 +54,12 @@ public:
     }
   }
   explicit operator bool() const { return this->Array != nullptr; }
-  /// As RGB: three bands as they are, any other number by their mean.
-  void Rgb(vtkIdType cell, double scale, float* rgb) const
+  void Rgb(vtkIdType cell, double scale, const BandColors& colors, float* rgb) const
   {
-    const vtkIdType i = this->Whole ? 0 : cell;
-    const int bands = this->Array->GetNumberOfComponents();
-    double sum = 0.0;
-    for (int b = 0; b < bands; ++b)
+    const std::array<double, 3> color = colors.Of(this->Array, this->Whole ? 0 : cell);
+    for (std::size_t c = 0; c < 3; ++c)
     {
-      const double value = scale * this->Array->GetComponent(i, b);
-      sum += value;
-      if (bands == 3)
-      {
-        rgb[b] = static_cast<float>(value);
-      }
-    }
-    if (bands != 3)
-    {
-      std::fill_n(rgb, 3, static_cast<float>(sum / bands));
+      rgb[c] = static_cast<float>(scale * color[c]);
     }
   }
   double Value(vtkIdType cell) const
@@ -119,13 +108,15 @@ private:
       , Specular(block, prefix + names::SpecularReflectance)
       , Exitance(block, prefix + names::EmittedExitance)
       , Shininess(block, prefix + names::Shininess)
+      , Reflected(block->GetFieldData(), radiometry::imaging::BandValues::Reflectance)
+      , Emitted(block->GetFieldData(), radiometry::imaging::BandValues::Power)
     {
     }
     void Read(vtkIdType cell, float* texels) const
     {
       if (this->Diffuse)
       {
-        this->Diffuse.Rgb(cell, 1.0, texels);
+        this->Diffuse.Rgb(cell, 1.0, this->Reflected, texels);
       }
       if (this->Shininess)
       {
@@ -133,17 +124,19 @@ private:
       }
       if (this->Specular)
       {
-        this->Specular.Rgb(cell, 1.0, texels + 4);
+        this->Specular.Rgb(cell, 1.0, this->Reflected, texels + 4);
       }
       if (this->Exitance)
       {
-        this->Exitance.Rgb(cell, 1.0 / vtkMath::Pi(), texels + 8); // a Lambertian emitter
+        this->Exitance.Rgb(cell, 1.0 / vtkMath::Pi(), this->Emitted, texels + 8); // a Lambertian emitter
       }
     }
     SurfaceArray Diffuse;
     SurfaceArray Specular;
     SurfaceArray Exitance;
     SurfaceArray Shininess;
+    BandColors Reflected;
+    BandColors Emitted;
   };
   static void FromProperty(vtkProperty* property, float* texels)
   {
