@@ -125,6 +125,37 @@ def test_falling_off_and_cones():
     expect(window(dict(SPOT, SpotCutoff=180, SpotExponent=3)), NEAR)  # no cone: a point light
 
 
+def source(kind, **settings):
+    made = kind()
+    for name, value in settings.items():
+        getattr(made, "Set" + name)(*(value if isinstance(value, tuple) else (value,)))
+    made.Update()
+    return made.GetOutput()
+
+
+def test_luminaires_emitting_surfaces_and_skies():
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+    from vtkradiometry import vtkAreaLightSource, vtkEnvironmentLightSource
+
+    far = PHONG + " Finite Position FragmentPosition"
+    web = lights(dict(POINT, Attenuation=(0, 0, 1), PhotometricWeb=0))
+    for name, values in (("", (1.0, 0.5, 0.0)), ("Horizontal", (0.0,)), ("Vertical", (0, 45, 90))):
+        array = vtkDoubleArray()
+        array.SetName("PhotometricWeb0" + name)
+        for value in values:
+            array.InsertNextValue(value)
+        web.GetFieldData().AddArray(array)
+    sky = source(vtkEnvironmentLightSource)
+    panel = source(vtkAreaLightSource)
+    for data, features in ((web, far + " Luminaire InverseSquare"), (panel, far + " Area"),
+                           (sky, PHONG + " Sky")):
+        w = window()
+        w.mapper.SetLightData(data)
+        expect(w, features)
+    w.mapper.SetLightData(lights(SUN))
+    expect(w, PHONG, "Directional")
+
+
 def test_places_of_evaluation():
     expect(window(SUN, shading="Flat"), PHONG, "Directional PerCell CellFrame")
     expect(window(POINT, shading="Flat"), NEAR.replace("FragmentPosition", "CellPosition"),
