@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -96,6 +97,15 @@ public:
     if (this->TwoSided && this->TwoSided.Value(cell) == 0.0)
     {
       std::fill_n(&material[12], 12, 0.0f); // nothing is reflected or emitted there
+    }
+    for (const int side : { 0, 12 })
+    {
+      // A perfect mirror, or no exponent at all: no light source is seen in it, as in LightingModel.
+      if (!std::isfinite(material[side + 3]) || material[side + 3] < 0.0f)
+      {
+        material[side + 3] = 0.0f;
+        std::fill_n(&material[side + 4], 3, 0.0f);
+      }
     }
     return material;
   }

@@ -51,6 +51,22 @@ def test_one_band_and_field_data_for_a_block():
     assert np.allclose(w.at(0.6, -0.2, picture), [0.75] * 3, rtol=1e-6)
 
 
+def test_exponents_without_a_highlight():
+    """A perfect mirror shows no light source, in the picture as in the model; and no NaN."""
+    for exponent in (math.inf, math.nan, -1.0, 1e30):
+        surface = square()
+        add(surface.GetCellData(), "DiffuseReflectance", [0.5])
+        add(surface.GetCellData(), "SpecularReflectance", [0.4])
+        add(surface.GetCellData(), "Shininess", [exponent])
+        w = Window()
+        w.mapper.SetInputDataObject(surface)
+        w.mapper.SetFieldModeToMaterials()
+        w.mapper.SetLightData(lights({"LightType": 2, "Direction": (0.3, 0, -1)}))
+        picture = w.draw()
+        assert np.isfinite(picture).all(), exponent
+        np.testing.assert_allclose(w.at(0, 0, picture), 0.5 / math.pi / math.sqrt(1.09), rtol=2e-6)
+
+
 def test_missing_arrays_are_the_property():
     w = window(square(), SUN)
     w.actor.GetProperty().SetColor(0.2, 0.4, 0.6)

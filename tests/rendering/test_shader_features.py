@@ -344,6 +344,27 @@ def test_known_shadows():
     expect(w, PHONG, "Directional")
 
 
+def test_extended_lights():
+    from vtkradiometry import vtkAreaLightSource
+
+    web = lights(dict(POINT, PhotometricWeb=0))
+    for name, values in (("", [1.0, 0.5, 0.0]), ("Horizontal", [0.0]), ("Vertical", [0.0, 60.0, 90.0])):
+        add(web.GetFieldData(), "PhotometricWeb0" + name, values)
+    area = vtkAreaLightSource()
+    area.SetPosition(0, 0, 1)
+    area.SetDirection(0, 0, -1)
+    area.Update()
+    w = window()
+    w.mapper.SetLightData(web)
+    expect(w, NEAR.replace("Point", "Luminaire"))
+    w.mapper.SetLightData(area.GetOutput())
+    expect(w, PHONG, "Finite Position FragmentPosition Area")
+    w.mapper.SetLightData(lights({"LightType": 4}))
+    expect(w, PHONG, "Sky")
+    w.mapper.SetShadingToGouraud()
+    expect(w, LIGHT, "PerVertex Sky")
+
+
 def test_every_effect_at_once():
     """EveryEffect puts in what is not needed, for comparison; without it that is gone."""
     w = window(SUN, EveryEffect=True)
