@@ -9,6 +9,7 @@
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
@@ -372,6 +373,7 @@ vtkSmartPointer<vtkDataObject> MakeLightGlyphs(vtkDataObject* lights, double siz
   {
     auto made = vtk::TakeSmartPointer(tree->NewInstance());
     made->CopyStructure(tree);
+    made->GetFieldData()->ShallowCopy(tree->GetFieldData());
     auto it = vtk::TakeSmartPointer(tree->NewIterator());
     for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
     {

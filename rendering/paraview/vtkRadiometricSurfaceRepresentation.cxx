@@ -2,10 +2,14 @@
 #include "vtkRadiometricSurfaceRepresentation.h"
 
 #include "FieldOfData.h"
+#include "SmoothField.h"
 
+#include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVView.h"
 #include "vtkPhongGouraudMapper.h"
+
+#include <algorithm>
 
 vtkStandardNewMacro(vtkRadiometricSurfaceRepresentation);
 
@@ -163,6 +167,48 @@ void vtkRadiometricSurfaceRepresentation::ChooseField(vtkMapper* mapper, vtkData
   }
 }
 
+void vtkRadiometricSurfaceRepresentation::SetSmoothCells(bool smooth)
+{
+  if (this->SmoothCells != smooth)
+  {
+    this->SmoothCells = smooth;
+    this->MarkModified();
+  }
+}
+
+void vtkRadiometricSurfaceRepresentation::SetFieldDisplay(int display)
+{
+  display = std::clamp<int>(display, DISPLAY_AUTO, vtkPhongGouraudMapper::FIELD_FALSE_COLOR);
+  if (this->FieldDisplay != display)
+  {
+    this->FieldDisplay = display;
+    this->MarkModified(); // smooth or not
+  }
+}
+
+int vtkRadiometricSurfaceRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!this->Superclass::RequestData(request, inputVector, outputVector))
+  {
+    return 0;
+  }
+  // What the view delivers and draws is changed in place: a view takes the first data it is given.
+  vtkDataObject* data = this->GetRenderedDataObject(0);
+  if (data && this->SmoothCells && this->FieldDisplay == DISPLAY_AUTO)
+  {
+    const vtkradiometry::ShownField field = vtkradiometry::FindLightOfData(data);
+    if (!field.Name.empty() && field.Association == 1)
+    {
+      if (const auto smooth = vtkradiometry::SmoothField(data, field.Name))
+      {
+        data->ShallowCopy(smooth);
+      }
+    }
+  }
+  return 1;
+}
+
 int vtkRadiometricSurfaceRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
 {
@@ -206,6 +252,7 @@ void vtkRadiometricSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent inden
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FieldDisplay: " << this->FieldDisplay << " (" << this->FieldUsed << ")\n";
+  os << indent << "SmoothCells: " << this->SmoothCells << "\n";
   os << indent << "MaterialSource: " << this->MaterialSource << "\n";
   os << indent << "FieldArrayName: " << this->FieldArrayName << "\n";
   os << indent << "FieldScale: " << this->FieldScale << "\n";

@@ -24,6 +24,7 @@
 
 #include <string> // for ivars
 
+class vtkDataObject;
 class vtkMapper;
 
 class VTKRADIOMETRYRENDERINGPARAVIEW_EXPORT vtkRadiometricSurfaceRepresentation
@@ -53,8 +54,17 @@ public:
    * What the surface shows: DISPLAY_AUTO (default), or a field mode of the mapper. With FIELD_OFF it
    * is lit by the lights.
    */
-  vtkSetClampMacro(FieldDisplay, int, DISPLAY_AUTO, 5);
+  void SetFieldDisplay(int display);
   vtkGetMacro(FieldDisplay, int);
+  ///@}
+
+  ///@{
+  /**
+   * On (default): where DISPLAY_AUTO shows light that was computed for cells, interpolate it between
+   * the corners of smooth surfaces (SmoothField.h). Off: constant over each cell.
+   */
+  void SetSmoothCells(bool smooth);
+  vtkGetMacro(SmoothCells, bool);
   ///@}
 
   ///@{
@@ -110,10 +120,14 @@ protected:
   vtkRadiometricSurfaceRepresentation();
   ~vtkRadiometricSurfaceRepresentation() override;
 
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
   /// Sets a mapper's field mode, array and scale for the data that it draws.
   void ChooseField(vtkMapper* mapper, vtkDataObject* data);
 
   int FieldDisplay = DISPLAY_AUTO;
+  bool SmoothCells = true;
   int MaterialSource = MATERIAL_AUTO;
   int FieldAssociation = 0;
   std::string FieldArrayName;

@@ -37,8 +37,9 @@ def sun(power, view):
     return source, show_lights(source, view)
 
 
-def written_plane(file_name, columns, arrays):
-    """A file with the square of new_plane() in `columns` x `columns` cells, with arrays on them."""
+def written_plane(file_name, columns, arrays, height=None):
+    """A file with the square of new_plane() in `columns` x `columns` cells, with arrays on them; bent
+    where there is a height(x, y)."""
     plane = vtkPlaneSource()
     plane.SetOrigin(-0.9, -0.9, 0)
     plane.SetPoint1(0.9, -0.9, 0)
@@ -46,6 +47,9 @@ def written_plane(file_name, columns, arrays):
     plane.SetResolution(columns, columns)
     plane.Update()
     data = plane.GetOutput()
+    for k in range(data.GetNumberOfPoints() if height else 0):
+        x, y, _ = data.GetPoint(k)
+        data.GetPoints().SetPoint(k, x, y, height(x, y))
     for name, values in arrays.items():
         array = numpy_to_vtk(np.asarray(values), deep=True)
         array.SetName(name)
@@ -79,6 +83,7 @@ def test_the_data_decides_what_is_shown():
     for name, value, shows, words in cases:
         source = cells_with(name, [value, value / 2] * 2)
         surface = show_surface(source, view)
+        surface.SmoothCells = 0
         expect(picture(view), *corner, shows)
         surface.SMProxy.UpdatePropertyInformation()
         check(surface.FieldUsed == words, name, surface.FieldUsed)
@@ -103,6 +108,48 @@ def test_the_data_decides_what_is_shown():
     expect(image, -0.45, -0.45, 0.4)
     expect(image, 0.45, 0.45, 0.0)
     pv.Delete(surface)
+    pv.Delete(view)
+
+
+def test_light_of_cells_is_smooth_on_smooth_surfaces():
+    view = new_view()
+    source = cells_with("Radiance", [0.2, 0.4, 0.6, 0.8])
+    surface = show_surface(source, view)
+    image = picture(view)
+    expect(image, 0.0, 0.0, 0.5)  # where four cells meet: their mean
+    expect(image, 0.87, -0.87, 0.4, 4.0)  # a corner that one cell has
+    expect(image, 0.0, -0.87, 0.3, 4.0)  # where two meet
+    for k in range(10):  # and linear along an edge
+        x = 0.005 + 0.09 * k
+        expect(image, x, 0.0, 0.5 + 0.1 * x / 0.9, 2.0)
+    pv.Render(view)
+    pv.SelectSurfaceCells(Rectangle=[140, 140, 150, 150], View=view)
+    picked = pv.ExtractSelection(Input=source)
+    picked.UpdatePipeline()
+    data = pv.servermanager.Fetch(picked)
+    check(data.GetNumberOfCells() == 1)
+    check(abs(data.GetCellData().GetArray("Radiance").GetValue(0) - 0.8) < 1e-9)
+    pv.ClearSelection(source)
+    surface.SmoothCells = 0
+    expect(picture(view), 0.1, 0.1, 0.8)
+    surface.SmoothCells = 1
+    check((picture(view) == image).all())
+    pv.Hide(source, view)
+    # Nothing is averaged over the ridge of a roof, nor between materials.
+    roof = pv.XMLPolyDataReader(FileName=[written_plane("roof.vtp", 2, {
+        "Radiance": [0.2, 0.6, 0.2, 0.6]}, height=lambda x, y: -abs(x))])
+    show_surface(roof, view)
+    image = picture(view)
+    expect(image, -0.01, 0.2, 0.2)
+    expect(image, 0.01, 0.2, 0.6)
+    pv.Delete(view)
+    view = new_view()
+    two = written_plane("materials.vtp", 2, {"Radiance": [0.2, 0.4, 0.6, 0.8],
+                                             "MaterialIndex": np.array([0, 0, 1, 1])})
+    show_surface(pv.XMLPolyDataReader(FileName=[two]), view)
+    image = picture(view)
+    expect(image, 0.0, -0.01, 0.3, 1.5)
+    expect(image, 0.0, 0.01, 0.7, 1.5)
     pv.Delete(view)
 
 
