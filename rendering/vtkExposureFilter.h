@@ -37,16 +37,17 @@ public:
     CAMERA = 1,
     KEY_VALUE = 2,
     PERCENTILE = 3,
-    STOPS = 4
+    STOPS = 4,
+    AUTOMATIC = 5
   };
   ///@{
   /**
    * What decides: EXPOSURE_VALUE the property ExposureValue; CAMERA f-number, shutter time and ISO
    * speed; KEY_VALUE makes the geometric mean of the luminances KeyValue; PERCENTILE (default) makes
    * the luminance that Percentile % of the pixels do not exceed PercentileLevel; STOPS multiplies by
-   * 2^Compensation alone.
+   * 2^Compensation alone; AUTOMATIC is the darker of KEY_VALUE and PERCENTILE.
    */
-  vtkSetClampMacro(Mode, int, EXPOSURE_VALUE, STOPS);
+  vtkSetClampMacro(Mode, int, EXPOSURE_VALUE, AUTOMATIC);
   vtkGetMacro(Mode, int);
   ///@}
 

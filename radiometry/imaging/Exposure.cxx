@@ -39,12 +39,28 @@ int Colors(int components) { return components >= 3 ? 3 : 1; }
 
 bool HasAlpha(int components) { return components == 2 || components == 4; }
 
-/// The measured luminance that the setting maps to `level`, or a gain straight from EV100.
-double GainWithoutCompensation(
-  const std::vector<double>& luminances, double perUnit, const ExposureSettings& s, bool& noLight)
+/// The gain that brings a measured luminance to a level; 0 without light.
+double GainTo(double level, double perUnit, double measured)
 {
-  double measured = 0.0;
-  double level = 1.0;
+  return measured > 0.0 ? level * perUnit / measured : 0.0;
+}
+
+double KeyGain(const std::vector<double>& luminances, double perUnit, const ExposureSettings& s)
+{
+  return GainTo(Positive("KeyValue", s.KeyValue, ""), perUnit, Summarise(luminances).GeometricMean);
+}
+
+double PercentileGain(
+  const std::vector<double>& luminances, double perUnit, const ExposureSettings& s)
+{
+  return GainTo(Positive("PercentileLevel", s.PercentileLevel, ""), perUnit,
+    LuminancePercentile(luminances, s.Percentile));
+}
+
+/// 0 where there is no light to measure.
+double GainWithoutCompensation(
+  const std::vector<double>& luminances, double perUnit, const ExposureSettings& s)
+{
   switch (s.Mode)
   {
     case ExposureMode::ExposureValue:
@@ -54,18 +70,18 @@ double GainWithoutCompensation(
       return perUnit /
         (SaturationLuminance * std::exp2(ExposureValue(s.FNumber, s.ShutterTime, s.IsoSpeed)));
     case ExposureMode::KeyValue:
-      measured = Summarise(luminances).GeometricMean;
-      level = Positive("KeyValue", s.KeyValue, "");
-      break;
+      return KeyGain(luminances, perUnit, s);
     case ExposureMode::Percentile:
-      measured = LuminancePercentile(luminances, s.Percentile);
-      level = Positive("PercentileLevel", s.PercentileLevel, "");
-      break;
-    case ExposureMode::Stops:
+      return PercentileGain(luminances, perUnit, s);
+    case ExposureMode::Automatic:
+    {
+      const double key = KeyGain(luminances, perUnit, s);
+      const double bright = PercentileGain(luminances, perUnit, s);
+      return bright > 0.0 ? std::min(key, bright) : key; // a few lights in the dark
+    }
+    default:
       return 1.0;
   }
-  noLight = !(measured > 0.0);
-  return noLight ? 1.0 : level * perUnit / measured;
 }
 
 } // namespace
@@ -169,8 +185,10 @@ ChosenExposure ChooseExposure(
 {
   Positive("LuminancePerUnit", perUnit, " of cd/m^2");
   ChosenExposure chosen;
-  const double gain = GainWithoutCompensation(luminances, perUnit, settings, chosen.NoLight);
-  chosen.Gain = gain * std::exp2(Finite("Compensation", settings.Compensation, " of stops"));
+  const double gain = GainWithoutCompensation(luminances, perUnit, settings);
+  chosen.NoLight = gain == 0.0;
+  chosen.Gain = (chosen.NoLight ? 1.0 : gain) *
+    std::exp2(Finite("Compensation", settings.Compensation, " of stops"));
   if (!(chosen.Gain > 0.0) || !std::isfinite(chosen.Gain))
   {
     throw InputError("ExposureValue", -1, chosen.Gain, "a gain that is above 0 and finite");

@@ -57,6 +57,7 @@ enum class ExposureMode
   KeyValue = 2,      ///< the geometric mean becomes KeyValue
   Percentile = 3,    ///< the luminance of a percentile becomes PercentileLevel
   Stops = 4,         ///< values times 2^Compensation, nothing else
+  Automatic = 5,     ///< the darker of KeyValue and Percentile
 };
 
 struct ExposureSettings

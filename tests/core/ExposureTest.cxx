@@ -99,6 +99,30 @@ TEST(Exposure, KeyAndPercentileComeOutAsAsked)
   }
 }
 
+TEST(Exposure, AutomaticIsTheDarkerOfTheTwo)
+{
+  const auto luminances = Lognormal(5000);
+  for (double percentile : { 60.0, 99.9 })
+  {
+    ExposureSettings settings;
+    settings.Percentile = percentile;
+    double least = endless;
+    for (ExposureMode mode : { ExposureMode::KeyValue, ExposureMode::Percentile })
+    {
+      settings.Mode = mode;
+      least = std::min(least, ChooseExposure(luminances, 2.0, settings).Gain);
+    }
+    settings.Mode = ExposureMode::Automatic;
+    EXPECT_EQ(ChooseExposure(luminances, 2.0, settings).Gain, least);
+  }
+  // One lamp in the dark: its percentile is 0 and says nothing.
+  ExposureSettings settings;
+  settings.Mode = ExposureMode::Automatic;
+  settings.Percentile = 50;
+  EXPECT_NEAR(ChooseExposure({ 0, 0, 0, 36.0 }, 1.0, settings).Gain, 0.18 / 36.0, 1e-15);
+  EXPECT_TRUE(ChooseExposure({ 0, 0 }, 1.0, settings).NoLight);
+}
+
 TEST(Exposure, PercentilesAreThoseOfTheSortedList)
 {
   const std::vector<double> list{ 4, odd, 1, endless, 3, 2, 5 };
