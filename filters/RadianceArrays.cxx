@@ -182,6 +182,12 @@ SurfaceLight ReadSurfaceLight(const vtkRadiometricFilter::Job& job)
   const bool points = !CarryLight(blocks, false);
   if (points && !CarryLight(blocks, true))
   {
+    // Values at points are not handed from process to process.
+    if (job.Adapter->IsGathered() && CarryLight(job.Adapter->OwnBlocks(), true))
+    {
+      throw InputError(std::string(names::Irradiance) + " or " + names::Radiosity, -1,
+        "values at points", "values of cells, where processes share a surface or it has ghost cells");
+    }
     return light;
   }
   light.Any = true;

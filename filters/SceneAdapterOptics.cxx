@@ -117,7 +117,10 @@ void ReadShininess(const std::vector<SceneAdapter::Block>& blocks, const std::st
         throw InputError(block.Name + name, whole ? 0 : c, value,
           "a Phong exponent of at least 0 (1e6 and more, or infinite: a perfect mirror)");
       }
-      values[block.FirstCell + c] = value;
+      if (block.Number(c) >= 0)
+      {
+        values[static_cast<std::size_t>(block.Number(c))] = value;
+      }
     }
   }
 }

@@ -53,14 +53,16 @@ public:
   }
   double* Sum(std::size_t set) { return this->Sums.data() + set * this->Bands; }
   double* Doubt(std::size_t set) { return this->Doubts.data() + set * this->Bands; }
-  void Find(std::uint32_t each, std::size_t band, double& mean, double& error) const
+  /// `noise`: what more samples would lessen; `doubt`: what they would not.
+  void Find(std::uint32_t each, std::size_t band, double& mean, double& noise, double& doubt) const
   {
-    double sum = 0.0, squares = 0.0, doubt = 0.0;
+    double sum = 0.0, squares = 0.0;
+    doubt = 0.0;
     for (std::size_t s = 0; s < Sets; ++s)
     {
       const double v = this->Sums[s * this->Bands + band] / each;
       sum += v;
-      doubt += this->Doubts[s * this->Bands + band] / each;
+      doubt += this->Doubts[s * this->Bands + band] / each / Sets;
     }
     mean = sum / Sets;
     for (std::size_t s = 0; s < Sets; ++s)
@@ -68,7 +70,7 @@ public:
       const double d = this->Sums[s * this->Bands + band] / each - mean;
       squares += d * d;
     }
-    error = Deviations * std::sqrt(squares / (Sets * (Sets - 1.0))) + doubt / Sets;
+    noise = Deviations * std::sqrt(squares / (Sets * (Sets - 1.0)));
   }
 
 private:
@@ -104,7 +106,7 @@ public:
       return rays; // nothing else to be seen
     }
     std::uint32_t done = 0;
-    std::vector<double> mean(this->Bands), error(this->Bands);
+    std::vector<double> mean(this->Bands), noise(this->Bands), doubt(this->Bands);
     for (std::uint32_t each = FewestSamples; each <= most; each *= 2)
     {
       for (std::size_t s = 0; s < Sets; ++s)
@@ -123,10 +125,12 @@ public:
       bool fine = true;
       for (std::size_t b = 0; b < this->Bands; ++b)
       {
-        sets.Find(done, b, mean[b], error[b]);
+        sets.Find(done, b, mean[b], noise[b], doubt[b]);
+        // Nor is it worth while to sample finer than the light that is seen is known.
         fine = fine &&
-          error[b] <= std::max(this->Options.AbsoluteTolerance,
-                        this->Options.RelativeTolerance * (values[b] + mean[b]));
+          noise[b] <= std::max({ this->Options.AbsoluteTolerance,
+                        this->Options.RelativeTolerance * (values[b] + mean[b]),
+                        0.5 * (errors[b] + doubt[b]) });
       }
       if (fine)
       {
@@ -141,7 +145,7 @@ public:
         ? 0.0
         : 3.0 / static_cast<double>(Sets * done) * this->Tracer.GreatestRadiance() *
           this->GreatestShare(receiver, b);
-      errors[b] += error[b] + missed;
+      errors[b] += noise[b] + doubt[b] + missed;
     }
     return rays;
   }
