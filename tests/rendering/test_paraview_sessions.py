@@ -28,6 +28,7 @@ from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLRectilinearGridWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+from vtkradiometry.look import look_through
 
 WHITE = math.pi  # of a sun that makes a white matte surface show 1
 
@@ -518,6 +519,28 @@ def test_ghost_cells_are_those_that_paraview_leaves_out():
     stock = picture(view)
     check(((image > 0) == (stock > 0)).all(), "other cells than ParaView draws")
     expect(image, 0.3, -0.8, 0)
+    pv.Delete(view)
+
+
+def test_looking_through_the_camera_of_a_scene():
+    view = new_view()
+    scene = pv.RadiometricSceneReader(FileName=os.path.join(
+        os.environ["RADIOMETRY_SOURCE_DIR"], "examples/gallery/gallery.glb"))
+    look_through(scene, view)
+    check(np.allclose(view.CameraPosition, (5.55, 1.62, 4.62), atol=1e-6), view.CameraPosition)
+    check(np.allclose(view.CameraFocalPoint, (3.1812, 1.2499, 2.1624), atol=1e-3))
+    check(abs(view.CameraViewAngle - 50) < 1e-6 and view.CameraParallelProjection == 0)
+    check(pv.Show(scene, view).Representation == "Radiometric Surface")
+    check(pv.Show(pv.OutputPort(scene, 1), view).Representation == "Radiometric Lights")
+    image = picture(view)
+    check((image.max(axis=2) > 60).mean() > 0.3, "dark")
+    check((image.max(axis=2) >= 255).mean() < 0.5, "glaring")
+    try:
+        look_through(scene, view, 1)
+    except IndexError as error:
+        check("camera 1: the scene has 1" in str(error), error)
+    else:
+        check(False, "a camera that is not there")
     pv.Delete(view)
 
 
