@@ -86,7 +86,8 @@ std::vector<Hit> Intersect(const ParityScene& scene, const Ray& ray)
 }
 
 /// Does what covers the pixel hang on rounding? Not so where its centre keeps 0.05 pixels from the
-/// outline of each triangle (the rasteriser knows places to 1/256 pixel) and no triangle is edge-on.
+/// outline of each triangle (the rasteriser knows places to 1/256 pixel), no triangle is edge-on and
+/// none is cut there by the picture's rim.
 bool CoverageIsSafe(const ParityScene& scene, const std::vector<Hit>& hits, double x, double y,
   int size)
 {
@@ -103,7 +104,11 @@ bool CoverageIsSafe(const ParityScene& scene, const std::vector<Hit>& hits, doub
       const Vec3 edge = corner[(i + 1) % 3] - corner[i];
       least = std::min(least, sign * turn(edge, p - corner[i]) / std::hypot(edge.x, edge.y));
     }
-    if (std::abs(least) < margin)
+    // At the picture's rim a triangle that goes on beyond it is cut, to bits of any thinness.
+    const bool atRim = std::max(std::abs(p.x), std::abs(p.y)) > 1.0 - 2.0 / size;
+    const auto outside = [](const Vec3& c) { return std::max(std::abs(c.x), std::abs(c.y)) > 1.0; };
+    if (std::abs(least) < margin ||
+      (atRim && least > 0.0 && std::any_of(corner, corner + 3, outside)))
     {
       return false;
     }

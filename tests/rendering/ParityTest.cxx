@@ -87,18 +87,10 @@ public:
 
 const auto* const Writer = ::testing::AddGlobalTestEnvironment(new TableWriter);
 
-/// Candela webs are looked up by angles, which float32 has to 4e-7 rad only.
-double AllowedIn(const ParityScene& scene)
-{
-  const auto isLuminaire = [](const ParityLight& given) { return given.Light.Web != nullptr; };
-  return std::any_of(scene.Lights.begin(), scene.Lights.end(), isLuminaire) ? 1e-4 : Relative;
-}
-
 void ComparePixel(const ParityScene& scene, int x, int y, const ParityPixel& expected,
   const float* drawn, Difference& total, int& wrong)
 {
   const double model[3] = { expected.Color.r, expected.Color.g, expected.Color.b };
-  const double allowedError = AllowedIn(scene);
   bool above = false;
   for (int c = 0; c < 3; ++c)
   {
@@ -107,11 +99,11 @@ void ComparePixel(const ParityScene& scene, int x, int y, const ParityPixel& exp
     double error = off / scale;
     above = above || model[c] > 1.0;
     total.Brightest = std::max(total.Brightest, model[c]);
-    if (!(error <= allowedError))
+    if (!(error <= Relative))
     {
       const Rgb allowed = FloatConditioning(scene, x, y, Size);
       const double condition = c == 0 ? allowed.r : (c == 1 ? allowed.g : allowed.b);
-      if (condition > allowedError * scale)
+      if (condition > Relative * scale)
       {
         ++total.IllConditioned;
         total.WorstConditioned = std::max(total.WorstConditioned, off / condition);
