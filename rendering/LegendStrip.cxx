@@ -126,8 +126,10 @@ int LegendStripWidth(int height) { return static_cast<int>(std::lround(8.4 * Fon
 
 std::string LegendNumber(double value)
 {
+  const double size = std::abs(value);
   char text[32];
-  std::snprintf(text, sizeof(text), "%.5g", value == 0.0 ? 0.0 : value);
+  std::snprintf(text, sizeof(text), size >= 100.0 && size < 1e6 ? "%.0f" : "%.3g",
+    size == 0.0 ? 0.0 : value);
   return text;
 }
 

@@ -15,7 +15,7 @@ using LegendTick = std::pair<double, std::string>;
 /// What fits a picture of so many rows.
 int LegendStripWidth(int height);
 
-/// A number as legends show it: five digits, no needless ones.
+/// A number as legends show it: three digits, or the integer from 100 to 1e6.
 std::string LegendNumber(double value);
 
 /// The limits of the bands, or round values of a continuous scale, as many as have room.
