@@ -40,7 +40,7 @@ struct RadianceResult
 ///   Model    L = B/pi of the side that is seen + (1/A) int_A [int f(w, out) L(w) cos dw + tau L(-out)]
 ///            (RadianceTracer.h). Nothing is asked about what stands between the cell and the viewer.
 ///            A side that sends nothing, and a cell whose plane holds the eye, gives 0
-///   Error    of B as given (over pi); of the rest 2.4 standard deviations of eight independent sets
+///   Error    of B as given (over pi); of the rest 2.9 standard deviations of eight independent sets
 ///            of samples, which are doubled until the tolerance is met or 2048 a set, and what errors
 ///            of the surroundings' B make
 ///   Cost     O(cells); a cell that reflects specularly or transmits: 64 to 16384 samples of about one
