@@ -499,6 +499,9 @@ void vtkLinearFloatPass::RenderOffScreen(vtkRenderer* renderer)
   this->Parts->DrawLinear(this, renderer, groups, this->Parts->Light);
   this->Parts->AverageSamples();
   this->Parts->DrawNearest(this, renderer, groups);
+  // Windows that restore OpenGL's state around a frame (vtkGenericOpenGLRenderWindow) would bind a
+  // buffer again that the next frame may delete.
+  glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "LinearCapture.h"
 #include "color/ColorConfig.h"
 #include "io/FileError.h"
+#include "radiometry/imaging/Exposure.h"
 
 #include "vtkLinearFloatPass.h"
 #include "vtkMultiProcessController.h"
@@ -15,7 +16,9 @@
 #include "vtkRenderer.h"
 #include "vtkStringArray.h"
 
+#include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace color = radiometry::color;
 
@@ -140,52 +143,78 @@ void vtkRadiometricView::AboutToRenderOnLocalProcess(bool interactive)
 }
 
 //------------------------------------------------------------------------------
-int vtkRadiometricView::CaptureLinear(const char* fileName)
+/// Draws the light on every process that draws, and brings it together; true on the process that then
+/// has it (or, with a width of 0, knows that it could not be had).
+bool vtkRadiometricView::CollectPicture(vtkradiometry::LinearPicture& picture)
 {
-  using namespace vtkradiometry;
-  if (!fileName || !*fileName)
-  {
-    vtkErrorMacro("no file to capture the picture to");
-    return 0;
-  }
-  const auto type = vtkProcessModule::GetProcessType();
   const bool distributed = this->GetUseDistributedRenderingForRender();
   vtkMultiProcessController* client = this->GetSession()->GetController(vtkPVSession::CLIENT);
   vtkMultiProcessController* server =
     this->GetSession()->GetController(vtkPVSession::RENDER_SERVER_ROOT);
-  LinearPicture picture;
-  if (type == vtkProcessModule::PROCESS_CLIENT && server && distributed)
+  if (vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_CLIENT && server &&
+    distributed)
   {
-    picture = ReceivePicture(server);
+    picture = vtkradiometry::ReceivePicture(server);
+    return true;
   }
-  else if (!this->IsProcessRenderingGeometriesForCompositing(distributed))
+  if (!this->IsProcessRenderingGeometriesForCompositing(distributed))
+  {
+    return false;
+  }
+  this->CapturePass->SetSamples(this->Samples);
+  vtkradiometry::LinearLayer layer =
+    vtkradiometry::DrawLayer(this->CapturePass, this->GetRenderer());
+  bool whole = layer.Samples > 0;
+  if (this->IsComposited())
+  {
+    auto* ranks = vtkMultiProcessController::GetGlobalController();
+    whole = vtkradiometry::GatherLayers(ranks, layer);
+    if (ranks->GetLocalProcessId() > 0)
+    {
+      return false;
+    }
+  }
+  if (whole)
+  {
+    picture = vtkradiometry::Average(
+      layer, [this](double depth) { return this->CapturePass->DistanceOf(depth); });
+  }
+  if (client && distributed)
+  {
+    vtkradiometry::SendPicture(client, picture);
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiometricView::MeasureExposure()
+{
+  namespace imaging = radiometry::imaging;
+  vtkradiometry::LinearPicture picture;
+  if (!this->CollectPicture(picture) || picture.Width <= 0)
+  {
+    return;
+  }
+  const std::vector<double> pixels(picture.Color.begin(), picture.Color.end());
+  const auto luminances = imaging::PixelLuminances(pixels.data(), pixels.size() / 4, 4, 1.0);
+  const double white = imaging::LuminancePercentile(luminances, 99.0);
+  this->MeasuredExposure = white > 0.0 ? -std::log2(white) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+int vtkRadiometricView::CaptureLinear(const char* fileName)
+{
+  using namespace vtkradiometry;
+  LinearPicture picture;
+  if (!this->CollectPicture(picture))
   {
     return 1;
   }
-  else
+  if (!fileName || !*fileName)
   {
-    this->CapturePass->SetSamples(this->Samples);
-    LinearLayer layer = DrawLayer(this->CapturePass, this->GetRenderer());
-    bool whole = layer.Samples > 0;
-    if (this->IsComposited())
-    {
-      auto* ranks = vtkMultiProcessController::GetGlobalController();
-      whole = GatherLayers(ranks, layer);
-      if (ranks->GetLocalProcessId() > 0)
-      {
-        return 1;
-      }
-    }
-    if (whole)
-    {
-      picture =
-        Average(layer, [this](double depth) { return this->CapturePass->DistanceOf(depth); });
-    }
-    if (client && distributed)
-    {
-      SendPicture(client, picture);
-      return 1;
-    }
+    vtkErrorMacro("no file to capture the picture to");
+    return 0;
   }
   if (picture.Width <= 0)
   {

@@ -28,6 +28,10 @@
 class vtkLinearFloatPass;
 class vtkOpenColorIOPass;
 class vtkStringArray;
+namespace vtkradiometry
+{
+struct LinearPicture;
+}
 
 class VTKRADIOMETRYRENDERINGPARAVIEW_EXPORT vtkRadiometricView : public vtkPVRenderView
 {
@@ -114,6 +118,16 @@ public:
 
   ///@{
   /**
+   * The exposure, in stops, at which 99 in 100 of the pixels with light are at most white in the
+   * view "Plain" (radiometry/imaging/Exposure.h); 0 for a picture without light. Measured on every
+   * process of the view together and known to the client (root of pvbatch).
+   */
+  void MeasureExposure();
+  vtkGetMacro(MeasuredExposure, double);
+  ///@}
+
+  ///@{
+  /**
    * Without effect here: the view's own transform takes their place.
    */
   void SetUseToneMapping(bool) {}
@@ -131,12 +145,14 @@ private:
   void operator=(const vtkRadiometricView&) = delete;
 
   bool IsComposited();
+  bool CollectPicture(vtkradiometry::LinearPicture& picture);
 
   vtkNew<vtkOpenColorIOPass> Pass;
   vtkNew<vtkLinearFloatPass> CapturePass;
   vtkNew<vtkStringArray> Names;
   std::string Message;
   int Samples = 1;
+  double MeasuredExposure = 0.0;
 };
 
 #endif

@@ -3,7 +3,10 @@
 
 #include "vtkClientServerStream.h"
 #include "vtkObjectFactory.h"
+#include "vtkRadiometricView.h"
 #include "vtkSMPropertyHelper.h"
+
+#include <cmath>
 
 vtkStandardNewMacro(vtkSMRadiometricViewProxy);
 
@@ -24,26 +27,41 @@ void vtkSMRadiometricViewProxy::UpdateVTKObjects()
   {
     vtkSMPropertyHelper(this, "CaptureLinear", true).Set("");
   }
+  const bool fit = vtkSMPropertyHelper(this, "FitExposure", true).GetAsInt() != 0;
+  if (fit)
+  {
+    vtkSMPropertyHelper(this, "FitExposure", true).Set(0);
+  }
   this->Superclass::UpdateVTKObjects();
   if (!this->ObjectsCreated)
   {
     return;
   }
-  const std::string listed = this->Text("ConfigFileName") + '\n' + this->Text("Display");
-  if (listed != this->Listed)
+  this->UpdateLists();
+  if (fit)
   {
-    this->Listed = listed;
-    for (const char* list : { "DisplayNames", "ViewNames", "LookNames", "ColorSpaceNames" })
-    {
-      if (vtkSMProperty* property = this->GetProperty(list))
-      {
-        this->UpdatePropertyInformation(property);
-      }
-    }
+    this->FitExposure();
   }
   if (!file.empty())
   {
     this->CaptureLinear(file.c_str());
+  }
+}
+
+void vtkSMRadiometricViewProxy::UpdateLists()
+{
+  const std::string listed = this->Text("ConfigFileName") + '\n' + this->Text("Display");
+  if (listed == this->Listed)
+  {
+    return;
+  }
+  this->Listed = listed;
+  for (const char* list : { "DisplayNames", "ViewNames", "LookNames", "ColorSpaceNames" })
+  {
+    if (vtkSMProperty* property = this->GetProperty(list))
+    {
+      this->UpdatePropertyInformation(property);
+    }
   }
 }
 
@@ -54,6 +72,21 @@ void vtkSMRadiometricViewProxy::CaptureLinear(const char* fileName)
   stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "CaptureLinear" << fileName
          << vtkClientServerStream::End;
   this->ExecuteStream(stream);
+}
+
+void vtkSMRadiometricViewProxy::FitExposure()
+{
+  this->StillRender();
+  vtkClientServerStream stream;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "MeasureExposure"
+         << vtkClientServerStream::End;
+  this->ExecuteStream(stream);
+  if (auto* view = vtkRadiometricView::SafeDownCast(this->GetClientSideObject()))
+  {
+    vtkSMPropertyHelper(this, "Exposure", true)
+      .Set(std::round(100.0 * view->GetMeasuredExposure()) / 100.0);
+    this->Superclass::UpdateVTKObjects();
+  }
 }
 
 void vtkSMRadiometricViewProxy::PrintSelf(ostream& os, vtkIndent indent)

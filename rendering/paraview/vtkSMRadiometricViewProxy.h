@@ -6,7 +6,7 @@
  * Keeps the panel's lists (displays, views, looks, colour spaces) with the config and the display
  * that are set, and makes CaptureLinear a command: setting the property to a file name renders the
  * view, writes the file, and empties the property, so that no state holds it and the same name can
- * be set again.
+ * be set again. FitExposure is such a command, too: setting it to 1 sets Exposure from the picture.
  */
 #ifndef vtkSMRadiometricViewProxy_h
 #define vtkSMRadiometricViewProxy_h
@@ -30,6 +30,12 @@ public:
    */
   void CaptureLinear(const char* fileName);
 
+  /**
+   * Renders the view and sets its Exposure to fit (vtkRadiometricView::MeasureExposure), to a
+   * hundredth of a stop.
+   */
+  void FitExposure();
+
 protected:
   vtkSMRadiometricViewProxy();
   ~vtkSMRadiometricViewProxy() override;
@@ -39,6 +45,7 @@ private:
   void operator=(const vtkSMRadiometricViewProxy&) = delete;
 
   std::string Text(const char* property);
+  void UpdateLists();
 
   std::string Listed; // the config and display that the lists are of
 };

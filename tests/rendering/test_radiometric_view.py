@@ -281,6 +281,31 @@ def test_camera_and_light_move_the_picture():
     assert (moved["RGBA"][:, :, 3] > 0).sum() < (linear["RGBA"][:, :, 3] > 0).sum()
 
 
+def test_exposure_can_be_fitted():
+    view = new_view(others=False)
+    rgba = capture(view)["RGBA"]
+    lit = rgba[rgba[:, :, 3] > 0]
+    luminance = lit[:, :3] @ [0.2126390, 0.7151687, 0.0721923]
+    view.FitExposure = 1
+    assert view.FitExposure == 0
+    assert abs(view.Exposure + np.log2(np.percentile(luminance, 99))) < 0.01, view.Exposure
+    fitted = view.Exposure
+    # A lamp of 800 lm: nearly black before, the same picture after.
+    lamp = next(s for s in pv.GetSources().values() if s.GetXMLName() == "PointLight")
+    before = picture(view)
+    lamp.Intensity, lamp.IntensityUnit = 800, "lm"
+    assert picture(view).max() < before.max() / 3 or picture(view).mean() < before.mean()
+    view.FitExposure = 1
+    assert view.Exposure > fitted + 5
+    assert np.abs(picture(view) - before).max() <= 3
+    view.FitExposure = 1  # and again
+    pv.Hide(lamp, view)
+    for source in pv.GetSources().values():
+        pv.Hide(source, view)
+    view.FitExposure = 1
+    assert view.Exposure == 0  # no light, no exposure
+
+
 def test_samples_smooth_in_linear_light():
     view = new_view()
     hard = capture(view)["RGBA"]

@@ -147,6 +147,54 @@ def test_false_colour_is_the_legend():
         assert (picture[opaque] == expected[15, 20]).all() and opaque.sum() > 500
 
 
+def test_the_conversion_is_the_cpus():
+    # A float target around the display pass keeps what it shows, before any byte.
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+    from vtkradiometry.vtkRadiometryRendering import vtkLinearFloatPass, vtkOpenColorIOImageFilter
+
+    strip = [(x, y, 0) for x in np.linspace(-0.9, 0.9, 30) for y in (-0.9, 0.9)]
+    surface = polydata(strip, [(2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1) for i in range(29)])
+    add(surface.GetPointData(), "F",
+        [(0.002 * 2 ** (i / 4), 0.01 * (60 - i), 0.5 + i / 10) for i in range(60)])
+    mapper = vtkPhongGouraudMapper()
+    mapper.SetInputDataObject(surface)
+    mapper.SetFieldModeToOn()
+    mapper.SetFieldArrayName("F")
+    view = View(actor(mapper, 1.0), light(0.3, 0.5, 0.3, 0.5))
+    display = view.target
+    around = vtkLinearFloatPass()
+    around.SetDelegatePass(display)
+    around.AllSceneLinearOn()
+    view.renderer.SetPass(around)
+
+    def floats(image):
+        return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(SIZE, SIZE, 4).copy()
+
+    for samples in (1, 2):
+        display.SetSamples(samples)
+        for screen in ("sRGB", "Display P3"):
+            for kind, stops in (("Plain", 0.5), ("ACES", -1.0)):
+                display.SetDisplay(screen)
+                display.SetView(kind)
+                display.SetExposure(stops)
+                view.window.Render()
+                linear = vtkImageData()
+                linear.DeepCopy(display.GetColor())
+                shown = floats(around.GetColor())
+                cpu = vtkOpenColorIOImageFilter()
+                cpu.SetInputData(linear)
+                cpu.SetConfigFileName("builtin")
+                cpu.SetDisplay(screen)
+                cpu.SetView(kind)
+                cpu.SetExposure(stops)
+                cpu.Update()
+                expected = floats(cpu.GetOutput())
+                seen = floats(linear)[:, :, 3] == 1
+                difference = np.abs(shown - expected)[seen] / np.maximum(1, np.abs(expected[seen]))
+                assert seen.mean() > 0.6
+                assert difference.max() <= 5e-6, (screen, kind, samples, difference.max())
+
+
 def test_translucent_light_is_blended_linearly():
     view = View(light(1.6, -0.5), light(0.2, 0.0, 0.8, 0.25))
     assert np.allclose(view.draw()[30, 30, :3], 0.25 * 0.2 + 0.75 * 1.6, rtol=1e-6)

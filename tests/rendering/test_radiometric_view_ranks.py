@@ -42,19 +42,22 @@ def arrays(reader, path):
 
 
 class Pictures:
-    def __init__(self, folder):
+    def __init__(self, folder, exposure):
+        self.exposure = exposure
         self.shown = next(iter(arrays(vtkPNGReader(), folder + "/picture.png").values()))
         self.linear = arrays(vtkOpenEXRReader(), folder + "/linear.exr")
         self.glass = arrays(vtkOpenEXRReader(), folder + "/glass.exr")
 
 
 def run(command):
-    subprocess.run(command, env=ENVIRONMENT, check=True, timeout=120, stdout=subprocess.DEVNULL)
+    """Runs the scene; returns the exposure that it found to fit."""
+    done = subprocess.run(command, env=ENVIRONMENT, check=True, timeout=120,
+                          stdout=subprocess.PIPE, text=True)
+    return next(line for line in done.stdout.splitlines() if line.startswith("exposure"))
 
 
 def batch(folder, *before):
-    run([*before, "pvbatch", SCENE, folder])
-    return Pictures(folder)
+    return Pictures(folder, run([*before, "pvbatch", SCENE, folder]))
 
 
 def client_of_server(folder, ranks):
@@ -72,13 +75,13 @@ def client_of_server(folder, ranks):
             log.seek(0)
             if "Accepting connection" in log.read() or server.poll() is not None:
                 break
-        run(["pvpython", SCENE, folder, f"127.0.0.1:{port}"])
+        exposure = run(["pvpython", SCENE, folder, f"127.0.0.1:{port}"])
         server.wait(timeout=60)
     finally:
         server.kill()
         server.wait()
         log.close()
-    return Pictures(folder)
+    return Pictures(folder, exposure)
 
 
 def compare(name, serial, other):
@@ -92,6 +95,7 @@ def compare(name, serial, other):
             worst[kind + " " + array] = share.max()
     print(name, "shown", difference.max(), "captured", worst)
     assert difference.max() == 0, name
+    assert other.exposure == serial.exposure and serial.exposure != "exposure 0.0"
     assert max(worst.values()) <= 4e-5, (name, worst)
 
 

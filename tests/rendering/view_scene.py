@@ -69,6 +69,9 @@ def main(folder, url=None):
     pv.SaveScreenshot(os.path.join(folder, "picture.png"), view, ImageResolution=SIZE)
     view.Samples = 2
     view.CaptureLinear = os.path.join(folder, "linear.exr")
+    view.FitExposure = 1
+    print("exposure", view.Exposure)
+    view.Exposure = 0
     shown(pv.Plane(Origin=[-1, -1, 0.7], Point1=[1, -1, 0.7], Point2=[-1, 1, 0.7], XResolution=4,
                    YResolution=4), view, DiffuseColor=[0.2, 0.5, 0.9], Opacity=0.5)
     view.Samples = 1
