@@ -96,6 +96,11 @@ void vtkRadianceFilter::SetCameraConnection(vtkAlgorithmOutput* camera)
   this->SetInputConnection(CameraPort, camera);
 }
 
+void vtkRadianceFilter::RemoveCameraConnection()
+{
+  this->SetInputConnection(CameraPort, nullptr);
+}
+
 void vtkRadianceFilter::SetCameraData(vtkDataObject* camera)
 {
   this->SetInputDataInternal(CameraPort, camera);

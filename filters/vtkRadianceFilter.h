@@ -45,6 +45,7 @@ public:
   /// A camera (input port 3).
   void SetCameraConnection(vtkAlgorithmOutput* camera);
   void SetCameraData(vtkDataObject* camera);
+  void RemoveCameraConnection();
 
   ///@{
   /// Who looks. 0 Automatic (default): ViewPoint or ViewDirection, whichever was set last; else the
