@@ -289,7 +289,7 @@ void vtkPhongGouraudHelper::DecideShading(
     return;
   }
   const std::size_t triangles = this->Choice.Mesh().Size();
-  const double lights = this->Lights.Ranges[2][1];
+  const double lights = this->Lights.Count();
   if (triangles == 0 || lights == 0.0)
   {
     reason = "Phong: nothing to decide";

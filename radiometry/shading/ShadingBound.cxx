@@ -424,6 +424,10 @@ double ShadingBound(const LightingModel& model, const std::vector<DisplayLight>&
     {
       continue;
     }
+    if (light.Web || light.Sky || !light.Polygon.empty())
+    {
+      return Infinite;
+    }
     const bool highlight = anyHighlight && !IsBlack(light.Specular);
     const Incidence in = IncidenceOf(model, light, place, highlight);
     for (int side = 0; side < count; ++side)

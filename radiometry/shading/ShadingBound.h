@@ -35,7 +35,8 @@ struct ShadedTriangle
 ///           rounding of float32 (about 1e-6) comes on top.
 ///   Cost    O(lights), some 100 ns each; stops at `enough`: a result above it is only known to be so
 ///   Fails   infinite where nothing can be said: a light or the eye within about the triangle's size,
-///           normals that turn by more than about a right angle, values that are not finite
+///           normals that turn by more than about a right angle, values that are not finite, lights
+///           with a web, a polygon or a sky
 double ShadingBound(const LightingModel& model, const std::vector<DisplayLight>& lights,
   const DisplayMaterial& front, const DisplayMaterial& back, const Vec3& eye, const Vec3& viewer,
   const ShadedTriangle& triangle, double enough = std::numeric_limits<double>::infinity());

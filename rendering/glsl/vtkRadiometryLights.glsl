@@ -118,11 +118,11 @@ float shareOfLight(int light)
 }
 //@end
 
-// One light: L toward it, nl = N.L, factor its fall-off and cone. Of finite lights nl is scaled after
+// One light: nl = N.L, factor its fall-off and cone; L toward it. Of finite lights nl is scaled after
 // the product: at grazing light the rounding of a unit vector would show.
-void addLight(int light, vec3 L, float nl, float factor, vec3 N,
+void addLight(int light, float nl, float factor,
 //@if Specular
-  vec3 S, float shininess,
+  vec3 L, vec3 N, vec3 S, float shininess,
 //@if BothSides
   float shininessBack,
 //@end
@@ -436,9 +436,9 @@ LightSums sumLights(vec3 N
   {
     int light = i * 6;
     vec3 L = texelFetch(radiometryLights, light).xyz;
-    addLight(light, L, dot(N, L), 1.0, N,
+    addLight(light, dot(N, L), 1.0,
 //@if Specular
-      S, shininess,
+      L, N, S, shininess,
 //@if BothSides
       shininessBack,
 //@end
@@ -455,9 +455,9 @@ LightSums sumLights(vec3 N
     if (r2 > 0.0)
     {
       float inverse = inversesqrt(r2);
-      addLight(light, inverse * toLight, inverse * dot(N, toLight), fallOff(light, r2, inverse), N,
+      addLight(light, inverse * dot(N, toLight), fallOff(light, r2, inverse),
 //@if Specular
-        S, shininess,
+        inverse * toLight, N, S, shininess,
 //@if BothSides
         shininessBack,
 //@end
@@ -476,10 +476,10 @@ LightSums sumLights(vec3 N
     {
       float inverse = inversesqrt(r2);
       vec3 L = inverse * toLight;
-      addLight(light, L, inverse * dot(N, toLight),
-        coneFactor(light, L) * fallOff(light, r2, inverse), N,
+      addLight(light, inverse * dot(N, toLight),
+        coneFactor(light, L) * fallOff(light, r2, inverse),
 //@if Specular
-        S, shininess,
+        L, N, S, shininess,
 //@if BothSides
         shininessBack,
 //@end
@@ -498,10 +498,10 @@ LightSums sumLights(vec3 N
     {
       float inverse = inversesqrt(r2);
       vec3 L = inverse * toLight;
-      addLight(light, L, inverse * dot(N, toLight),
-        webFactor(light, L) * fallOff(light, r2, inverse), N,
+      addLight(light, inverse * dot(N, toLight),
+        webFactor(light, L) * fallOff(light, r2, inverse),
 //@if Specular
-        S, shininess,
+        L, N, S, shininess,
 //@if BothSides
         shininessBack,
 //@end
