@@ -27,11 +27,14 @@ Mesa hands its vertex buffers back to the system after each frame where malloc m
     ./run --python benchmarks/frame_time.py [--frames 40] [--size 800] [--out frame-time]
 
 Mesa's llvmpipe draws on the processor, so a fragment's arithmetic costs as much as its text says; on a
-graphics card fewer of these differences show. Writes benchmarks/results/frame-time.json.
+graphics card fewer of these differences show. Writes benchmarks/results/frame-time.json and the tables of
+docs/rendering/speed.md (--tables: these alone, of the results that there are).
 """
 import argparse
+import json
 import math
 import os
+import re
 import sys
 import time
 
@@ -50,7 +53,8 @@ from vtkradiometry.vtkRadiometryRendering import vtkLinearFloatPass, vtkPhongGou
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from radiosity.record import provenance, write  # noqa: E402
 
-SECONDS = 6.0  # a case
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+SECONDS = 4.0  # a case
 DECISION = 30.0  # s: the longest that is waited for
 KEEP = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": "2000000000", "MALLOC_TOP_PAD_": "100000000"}
 KINDS = ("directional", "point", "spot")
@@ -67,6 +71,7 @@ def arguments():
     parser.add_argument("--rows", default="stock,phong,physical,everything,gouraud,flat,auto")
     parser.add_argument("--many", default="500,2000", help="numbers of point lights for ours alone")
     parser.add_argument("--out", default="frame-time")
+    parser.add_argument("--tables", action="store_true", help="of the results that there are")
     return parser.parse_args()
 
 
@@ -203,8 +208,90 @@ def show(case):
         for row, r in case["rows"].items()), file=sys.stderr, flush=True)
 
 
+def stock_table(data):
+    lines = [f"Commit {data['commit']}, {data['processor']}, {data['cores']} cores, load "
+             f"{data['load']:.0f} when it began, {data['renderer']}; {data['triangles']} triangles, "
+             f"{data['size']}² pixels. Milliseconds of the processor (all threads) a frame, and how many "
+             "times VTK's.", "",
+             "| lights | material | target | VTK | Phong | physical | Gouraud | Flat | Auto | every effect |",
+             "|---|---|---|---|---|---|---|---|---|---|"]
+    for case in data["cases"]:
+        rows = case["rows"]
+        if "stock" not in rows:
+            continue
+        stock = rows["stock"]["processor"]
+        cells = [f"{1e3 * stock:.0f} ms"] + [
+            "" if row not in rows else
+            f"{1e3 * rows[row]['processor']:.0f} ms, **{rows[row]['processor'] / stock:.2f}**"
+            if row == "phong" else f"{rows[row]['processor'] / stock:.2f}"
+            for row in ("phong", "physical", "gouraud", "flat", "auto", "everything")]
+        lines.append(f"| {case['lights']} {case['kind']} | {case['material']} | {case['target']} | "
+                     + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def auto_table(data):
+    lines = ["| lights | material | frames until decided | share of Gouraud | Phong | Auto |",
+             "|---|---|---|---|---|---|"]
+    for case in data["cases"]:
+        rows = case["rows"]
+        if case["target"] == "window" and "auto" in rows:
+            auto = rows["auto"]
+            phong = rows["phong"]["processor"]
+            lines.append(
+                f"| {case['lights']} {case['kind']} | {case['material']} | "
+                f"{auto['frames until decided'] if 'deciding' not in auto['reason'] else 'not within 30 s'}"
+                f" | {100 * auto['gouraud share']:.1f} % | {1e3 * phong:.0f} ms | "
+                f"{1e3 * auto['processor']:.0f} ms, **{auto['processor'] / phong:.2f}** |")
+    return "\n".join(lines) + "\n"
+
+
+def many_table(data):
+    lines = ["| point lights | Phong | Gouraud | Auto |", "|---|---|---|---|"]
+    for case in data["cases"]:
+        if "stock" not in case["rows"]:
+            lines.append(f"| {case['lights']} | " + " | ".join(
+                f"{case['rows'][row]['processor']:.2f} s" for row in ("phong", "gouraud", "auto")) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def setup_table(data):
+    lines = ["| lights | VTK, first frame | Phong, first frame | VTK, 2 x 2 pixels | Phong, 2 x 2 pixels |",
+             "|---|---|---|---|---|"]
+    for small in data["cpu"]:
+        first = next((c["rows"] for c in data["cases"] if c["kind"] == "point" and "stock" in c["rows"]
+                      and c["lights"] == small["lights"] and c["material"] == "gloss"), None)
+        if first:
+            lines.append(f"| {small['lights']} point | " + " | ".join(
+                f"{1e3 * value:.{digits}f} ms" for value, digits in (
+                    (first["stock"]["setup"], 0), (first["phong"]["setup"], 0),
+                    (small["rows"]["stock"]["processor"], 2),
+                    (small["rows"]["phong"]["processor"], 2))) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def write_page(data):
+    path = os.path.join(ROOT, "docs", "rendering", "speed.md")
+    with open(path, encoding="utf-8") as file:
+        page = file.read()
+    for name, table in (("stock", stock_table), ("auto", auto_table), ("setup", setup_table),
+                        ("many", many_table)):
+        mark = re.compile(rf"(<!-- speed: {name} -->\n)(?:.*?\n)??(<!-- end -->)", re.DOTALL)
+        if not mark.search(page):
+            raise SystemExit(f"{path} has no place for {name}")
+        page = mark.sub(lambda m, t=table(data): m.group(1) + t + m.group(2), page)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(page)
+
+
 def main():
     options = arguments()
+    if options.tables:
+        with open(os.path.join(ROOT, "benchmarks", "results", "frame-time.json"),
+                  encoding="utf-8") as file:
+            write_page(json.load(file))
+        return
+    origin = provenance()  # the load before it, not its own
     surface = sphere()
     probe = Stage("stock", cube(), "directional", 1, "matte", "window", 2)
     about = next((line for line in probe.window.ReportCapabilities().splitlines()
@@ -216,7 +303,7 @@ def main():
             for material in options.materials.split(","):
                 for target in options.targets.split(","):
                     cases.append(measure(
-                        rows, surface, kind, count, material, target, options.size, options.frames))
+                        rows if target == "window" else rows[:3], surface, kind, count, material, target, options.size, options.frames))
                     show(cases[-1])
     for count in map(int, filter(None, options.many.split(","))):
         cases.append(measure(["phong", "gouraud", "auto"], surface, "point", count, "gloss", "window",
@@ -227,10 +314,13 @@ def main():
         cpu.append(measure([r for r in rows if r in ("stock", "phong", "auto")], cube(), "point", count,
                            "gloss", "window", 2, 10 * options.frames))
         show(cpu[-1])
-    write(options.out, {"question": "a frame of vtkPhongGouraudMapper beside VTK's mapper",
-                        **provenance(), "renderer": about, "size": options.size,
-                        "triangles": surface.GetNumberOfPolys(),
-                        "cores": len(os.sched_getaffinity(0)), "cases": cases, "cpu": cpu})
+    result = {"question": "a frame of vtkPhongGouraudMapper beside VTK's mapper",
+              **origin, "renderer": about, "size": options.size,
+              "triangles": surface.GetNumberOfPolys(),
+              "cores": len(os.sched_getaffinity(0)), "cases": cases, "cpu": cpu}
+    write(options.out, result)
+    if options.out == "frame-time":
+        write_page(result)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ using radiometry::ShadedScene;
 using radiometry::Vec3;
 
 constexpr double AtOnce = 1e6;
-constexpr double LongestFrame = 0.1; // s: what counts of a pause between frames
+constexpr double LongestFrame = 1.0; // s: what counts of a pause between frames
 
 class KeyOf
 {

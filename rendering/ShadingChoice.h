@@ -30,7 +30,7 @@ public:
   void SetMesh(radiometry::ShadedMesh&& mesh);
   const radiometry::ShadedMesh& Mesh() const { return this->Object; }
 
-  /// Once a frame: goes on deciding for at most `share` of the time since the last call (of 0.1 s
+  /// Once a frame: goes on deciding for at most `share` of the time since the last call (of 1 s
   /// where that is longer). A share of 1e6 and more: all at once, for the first frame, too.
   ///   objectToWorld   row by row; the scene is in world coordinates
   State Decide(const radiometry::ShadedScene& scene, const double* objectToWorld,

@@ -94,6 +94,9 @@ private:
   bool UsesScalarColors();
   /// Everything that decides the text of the shaders.
   vtkradiometry::ShaderFeatures Needs(vtkRenderer* ren, vtkActor* act);
+  void NeedLights(vtkradiometry::ShaderFeatures& needs, vtkRenderer* ren, vtkActor* act);
+  int ChooseShading(const vtkradiometry::ShaderFeatures& needs, bool highlights);
+  void NeedShading(vtkradiometry::ShaderFeatures& needs, int shading);
   vtkradiometry::CollectedLights CollectLights(vtkRenderer* ren, vtkActor* act);
   void PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectToWorld);
   /// Shading Auto: the triangles to decide about, what they are lit by, and once a frame the choice.

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What vtkPhongGouraudHelper draws itself, and which effects the shader of a scene needs for it.
+#include "vtkPhongGouraudHelper.h"
+
+#include "vtkPhongGouraudMapper.h"
+
+#include "vtk_glew.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkMatrix4x4.h"
+#include "vtkOpenGLHelper.h"
+#include "vtkOpenGLVertexBufferObjectGroup.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+
+using vtkradiometry::ShaderFeatures;
+
+namespace
+{
+
+bool Has(const ShaderFeatures& features, const char* name)
+{
+  return features.count(name) != 0;
+}
+
+void Need(ShaderFeatures& features, bool needed, const char* name)
+{
+  if (needed)
+  {
+    features.insert(name);
+  }
+}
+
+bool IsBlack(const double* color)
+{
+  return color[0] == 0.0 && color[1] == 0.0 && color[2] == 0.0;
+}
+
+bool NeedsLight(vtkPhongGouraudMapper* mapper)
+{
+  const int mode = mapper->GetFieldMode();
+  return mode != vtkPhongGouraudMapper::FIELD_ON &&
+    mode != vtkPhongGouraudMapper::FIELD_NORMALS &&
+    mode != vtkPhongGouraudMapper::FIELD_FALSE_COLOR;
+}
+
+/// Has either side's property this?
+template <typename F>
+bool OfEitherSide(vtkActor* act, const F& property)
+{
+  vtkProperty* back = act->GetBackfaceProperty();
+  return property(act->GetProperty()) || (back && property(back));
+}
+
+} // namespace
+
+bool vtkPhongGouraudHelper::DrawsItself(vtkOpenGLHelper& cellBO, vtkActor* act)
+{
+  if (this->CurrentSelector || this->DrawingSelection || this->DrawingVertices)
+  {
+    return false;
+  }
+  if (NeedsLight(this->Mapper()) && !act->GetProperty()->GetLighting())
+  {
+    return false;
+  }
+  return this->GetOpenGLMode(act->GetProperty()->GetRepresentation(), cellBO.PrimitiveType) ==
+    GL_TRIANGLES;
+}
+
+bool vtkPhongGouraudHelper::HasPointNormals()
+{
+  return this->VBOs->GetNumberOfComponents("normalMC") == 3;
+}
+
+bool vtkPhongGouraudHelper::UsesScalarColors()
+{
+  return this->VBOs->GetNumberOfComponents("scalarColor") != 0 || this->HaveCellScalars ||
+    (this->InterpolateScalarsBeforeMapping && this->ColorCoordinates);
+}
+
+ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
+{
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  ShaderFeatures needs;
+  if (mapper->FieldMode == vtkPhongGouraudMapper::FIELD_FALSE_COLOR)
+  {
+    needs.insert("FalseColor");
+    Need(needs, this->DrawingEdges(ren, act), "Edges");
+    Need(needs, this->ScalarsOfPoints, this->PointColors ? "ColorsOfPoints" : "ScalarsOfPoints");
+    Need(needs, this->CellColorBuffer.Texture != nullptr, "ColorsOfCells");
+    return needs;
+  }
+  vtkProperty* back = act->GetBackfaceProperty();
+  Need(needs, mapper->TwoSided || back, "TwoSided");
+  Need(needs, back != nullptr, "BackProperty");
+  vtkNew<vtkMatrix4x4> objectToWorld;
+  act->GetModelToWorldMatrix(objectToWorld);
+  Need(needs, Has(needs, "TwoSided") && objectToWorld->Determinant() < 0.0, "Mirrored");
+  Need(needs, this->DrawingEdges(ren, act), "Edges");
+
+  const bool lit = NeedsLight(mapper);
+  const bool highlights = this->Shines(act) && Has(this->Lights.Features, "Lights");
+  const bool materials =
+    mapper->FieldMode == vtkPhongGouraudMapper::FIELD_MATERIALS || this->HighlightsOfCells();
+  Need(needs, lit, "Lit");
+  Need(needs, materials && (lit || highlights), "Materials");
+  Need(needs, materials && lit && this->EmittingMaterials, "MaterialEmission");
+  Need(needs, mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON, "ShowField");
+  Need(needs, mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE, "FieldIsReflectance");
+  Need(needs, mapper->FieldMode == vtkPhongGouraudMapper::FIELD_NORMALS, "ShowNormals");
+  if (Has(needs, "ShowField") || Has(needs, "FieldIsReflectance"))
+  {
+    needs.insert("Field");
+    Need(needs, this->FieldOfCells, "FieldOfCells");
+    Need(needs, this->FieldOfPoints, "FieldOfPoints");
+    Need(needs, this->FieldOfBack, "FieldOfBack");
+  }
+
+  int shading = mapper->Shading;
+  if (lit || highlights)
+  {
+    this->NeedLights(needs, ren, act);
+    shading = this->ChooseShading(needs, highlights);
+    this->NeedShading(needs, shading);
+    mapper->ShadingUsed = shading;
+  }
+  Need(needs, Has(needs, "ShowNormals"), "FragmentNormal");
+  Need(needs,
+    Has(needs, "FragmentNormal") &&
+      (shading == vtkPhongGouraudMapper::FLAT || !this->HasPointNormals()),
+    "CellFrame");
+  Need(needs, Has(needs, "FragmentNormal") || Has(needs, "PerVertex"), "NeedsNormal");
+  return needs;
+}
+
+void vtkPhongGouraudHelper::NeedLights(ShaderFeatures& needs, vtkRenderer* ren, vtkActor* act)
+{
+  vtkPhongGouraudMapper* mapper = this->Mapper();
+  const bool lit = Has(needs, "Lit");
+  const bool emission = !IsBlack(mapper->Emission) || !IsBlack(mapper->BackEmission);
+  Need(needs, lit && emission, "Emission");
+  Need(needs,
+    lit && OfEitherSide(act, [](vtkProperty* p) { return p->GetAmbient() > 0.0; }), "Ambient");
+  needs.insert(this->Lights.Features.begin(), this->Lights.Features.end());
+  const bool lights = Has(needs, "Lights");
+  Need(needs, lit && lights, "Diffuse");
+  if (mapper->EveryEffect && lights)
+  {
+    for (const char* effect : { "Ambient", "Emission", "Directional", "Point", "Spot",
+           "LightAmbient", "LightSpecular", "Attenuation", "SpotExponent", "SmoothEdge",
+           "Specular" })
+    {
+      needs.insert(effect);
+    }
+    needs.erase("InverseSquare");
+  }
+  const auto shines = [](vtkProperty* p) {
+    return p->GetSpecular() > 0.0 && !IsBlack(p->GetSpecularColor());
+  };
+  Need(needs,
+    lights && (Has(needs, "Materials") ? this->SpecularMaterials : OfEitherSide(act, shines)),
+    "Specular");
+  if (!lit)
+  {
+    needs.erase("Area"); // they have no highlights
+    needs.erase("Sky");
+  }
+  for (const char* kind : { "Point", "Spot", "Luminaire", "Area" })
+  {
+    Need(needs, Has(needs, kind), "Finite");
+  }
+  Need(needs, Has(needs, "Specular") || Has(needs, "SpotExponent"), "NeedsPower");
+  if (!Has(needs, "Ambient"))
+  {
+    needs.erase("LightAmbient");
+  }
+  if (Has(needs, "Specular"))
+  {
+    const bool parallel = ren->GetActiveCamera()->GetParallelProjection() != 0;
+    Need(needs, mapper->LocalViewer && !parallel, "LocalViewer");
+    const char* models[] = { "BlinnPhong", "Phong", "Physical" };
+    needs.insert(models[mapper->ReflectionModel]);
+    Need(needs, act->GetBackfaceProperty() && !this->UsesScalarColors(), "BackMaterial");
+  }
+  else
+  {
+    needs.erase("LightSpecular");
+  }
+  if (lights && this->UsesVisibility())
+  {
+    this->NeedVisibility(needs);
+  }
+}
+
+int vtkPhongGouraudHelper::ChooseShading(const ShaderFeatures& needs, bool highlights)
+{
+  const int shading = this->Mapper()->Shading;
+  if (shading == vtkPhongGouraudMapper::FLAT)
+  {
+    return shading;
+  }
+  // Highlights on a field and shares of light are drawn pixel by pixel; so are normals of cells and
+  // exponents that belong to a cell.
+  const bool specular = Has(needs, "Specular");
+  if (highlights || (Has(needs, "Lights") && this->UsesVisibility()) ||
+    !this->HasPointNormals() || (Has(needs, "Materials") && specular))
+  {
+    return vtkPhongGouraudMapper::PHONG;
+  }
+  if (shading != vtkPhongGouraudMapper::AUTO)
+  {
+    return shading;
+  }
+  for (const char* kind : { "Luminaire", "Area", "Sky" })
+  {
+    if (Has(needs, kind))
+    {
+      return vtkPhongGouraudMapper::PHONG;
+    }
+  }
+  // Directional lights on a diffuse surface with one normal a cell: nothing varies in a cell.
+  if (this->ConstantInCells && !specular && !Has(needs, "Finite"))
+  {
+    this->AutoReason = "Gouraud: nothing varies within a cell";
+    return vtkPhongGouraudMapper::GOURAUD;
+  }
+  return this->AutoUses;
+}
+
+void vtkPhongGouraudHelper::NeedShading(ShaderFeatures& needs, int shading)
+{
+  if (!Has(needs, "Lights"))
+  {
+    return;
+  }
+  const bool mixed = shading == vtkPhongGouraudMapper::AUTO;
+  const bool flat = shading == vtkPhongGouraudMapper::FLAT;
+  const bool pixels = shading != vtkPhongGouraudMapper::GOURAUD;
+  const bool position = Has(needs, "Finite") || Has(needs, "LocalViewer");
+  Need(needs, mixed || !pixels, "PerVertex");
+  Need(needs, mixed, "PerTriangle");
+  Need(needs, flat, "PerCell");
+  Need(needs, pixels, "FragmentNormal");
+  Need(needs, position, "Position");
+  Need(needs, pixels && position && flat, "CellPosition");
+  Need(needs, pixels && position && !flat, "FragmentPosition");
+  Need(needs, pixels && Has(needs, "LocalViewer"), "FragmentViewer");
+}
+
+bool vtkPhongGouraudHelper::GetNeedToRebuildShaders(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  this->Ours = this->DrawsItself(cellBO, act);
+  const bool rebuild = this->Superclass::GetNeedToRebuildShaders(cellBO, ren, act);
+  // VTK 9.2 reads the back-face property wherever the last program had one: no program outlives it.
+  std::string signature = act->GetBackfaceProperty() ? "BackProperty" : "";
+  if (this->Ours)
+  {
+    signature.clear();
+    this->Features = this->Needs(ren, act);
+    for (const std::string& feature : this->Features)
+    {
+      signature += (signature.empty() ? "" : " ") + feature;
+    }
+    this->Mapper()->ShaderFeatureText = signature;
+  }
+  std::string& last = this->Signatures[&cellBO];
+  if (last == signature)
+  {
+    return rebuild;
+  }
+  last = signature;
+  return true;
+}
