@@ -35,6 +35,7 @@
 #include "vtkVolumetricPass.h"
 #include "vtkWeakPointer.h"
 
+#include <algorithm>
 #include <vector>
 
 using displaypass::Area;
@@ -75,6 +76,32 @@ private:
   vtkOpenGLState::ScopedglEnableDisable DepthTest;
   vtkOpenGLState::ScopedglDepthFunc DepthFunction;
   vtkOpenGLState::ScopedglDepthMask DepthMask;
+};
+
+/// The window without the tiles of a large screenshot.
+class WholeWindow
+{
+public:
+  explicit WholeWindow(vtkRenderWindow* window)
+    : Window(window)
+    , Scale{ window->GetTileScale()[0], window->GetTileScale()[1] }
+  {
+    window->GetTileViewport(this->Viewport);
+    window->SetTileScale(1, 1);
+    window->SetTileViewport(0.0, 0.0, 1.0, 1.0);
+  }
+  ~WholeWindow()
+  {
+    this->Window->SetTileScale(this->Scale);
+    this->Window->SetTileViewport(this->Viewport);
+  }
+  WholeWindow(const WholeWindow&) = delete;
+  void operator=(const WholeWindow&) = delete;
+
+private:
+  vtkRenderWindow* Window;
+  int Scale[2];
+  double Viewport[4];
 };
 
 } // namespace
@@ -470,7 +497,7 @@ void vtkLinearFloatPass::Render(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void vtkLinearFloatPass::RenderOffScreen(vtkRenderer* renderer)
+void vtkLinearFloatPass::RenderOffScreen(vtkRenderer* renderer, int reduction)
 {
   std::vector<vtkProp*> visible;
   vtkCollectionSimpleIterator it;
@@ -485,6 +512,7 @@ void vtkLinearFloatPass::RenderOffScreen(vtkRenderer* renderer)
   }
   vtkRenderState s(renderer);
   s.SetPropArrayAndCount(visible.data(), static_cast<int>(visible.size()));
+  const WholeWindow whole(renderer->GetRenderWindow());
   const Area area = displaypass::AreaOf(&s);
   if (area.Width <= 0 || area.Height <= 0)
   {
@@ -493,8 +521,8 @@ void vtkLinearFloatPass::RenderOffScreen(vtkRenderer* renderer)
   this->NumberOfRenderedProps = 0;
   this->Parts->Adopt(this, renderer);
   this->Parts->Window->MakeCurrent();
-  this->Parts->Width = area.Width;
-  this->Parts->Height = area.Height;
+  this->Parts->Width = std::max(area.Width / reduction, 1);
+  this->Parts->Height = std::max(area.Height / reduction, 1);
   const PropGroups groups(&s, this->AllSceneLinear);
   this->Parts->DrawLinear(this, renderer, groups, this->Parts->Light);
   this->Parts->AverageSamples();

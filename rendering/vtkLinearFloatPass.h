@@ -52,9 +52,10 @@ public:
 
   /**
    * Draws the light of a renderer's visible props for GetColor() and its like, and shows nothing:
-   * the window keeps its picture. The camera must have been rendered with before.
+   * the window keeps its picture. The camera must have been rendered with before. The whole view
+   * even where the window draws it in tiles, its width and height divided by `reduction`.
    */
-  void RenderOffScreen(vtkRenderer* renderer);
+  void RenderOffScreen(vtkRenderer* renderer, int reduction = 1);
 
   ///@{
   /**

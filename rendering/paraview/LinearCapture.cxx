@@ -4,6 +4,7 @@
 #include "color/ColorConfig.h"
 #include "color/Primaries.h"
 #include "io/ExrWriter.h"
+#include "radiometry/imaging/Exposure.h"
 
 #include "vtkCamera.h"
 #include "vtkImageData.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace vtkradiometry
 {
@@ -105,10 +107,10 @@ void AddCamera(vtkRenderer* renderer, radiometry::io::ExrPart& part)
 } // namespace
 
 //------------------------------------------------------------------------------
-LinearLayer DrawLayer(vtkLinearFloatPass* pass, vtkRenderer* renderer)
+LinearLayer DrawLayer(vtkLinearFloatPass* pass, vtkRenderer* renderer, int reduction)
 {
   LinearLayer layer;
-  pass->RenderOffScreen(renderer);
+  pass->RenderOffScreen(renderer, reduction);
   vtkImageData* color = pass->GetSampleColor();
   vtkImageData* depth = pass->GetSampleDepth();
   if (!color || !depth)
@@ -240,6 +242,24 @@ LinearPicture Average(const LinearLayer& layer, const std::function<double(doubl
 }
 
 //------------------------------------------------------------------------------
+double FittingStops(const LinearPicture& picture)
+{
+  namespace imaging = radiometry::imaging;
+  const std::vector<double> pixels(picture.Color.begin(), picture.Color.end());
+  auto lit = imaging::PixelLuminances(pixels.data(), pixels.size() / 4, 4, 1.0);
+  lit.erase(
+    std::remove_if(lit.begin(), lit.end(), [](double value) { return !(value > 0.0); }), lit.end());
+  if (lit.empty())
+  {
+    return 0.0;
+  }
+  const double typical = imaging::Summarise(lit).GeometricMean;
+  const double bright = imaging::LuminancePercentile(lit, 98.0);
+  const double stops = std::log2(std::min(0.25 / typical, 1.0 / bright));
+  return std::isfinite(stops) ? stops : 0.0;
+}
+
+//------------------------------------------------------------------------------
 void SendPicture(vtkMultiProcessController* controller, const LinearPicture& picture)
 {
   const int size[2] = { picture.Width, picture.Height };
@@ -298,7 +318,7 @@ void WritePicture(const std::string& fileName, const LinearPicture& picture,
   attributes["display"] = notes.Display;
   attributes["displayView"] = notes.View;
   attributes["displayLook"] = notes.Look;
-  attributes["displayExposure"] = notes.Exposure;
+  attributes["displayExposure"] = notes.Exposure; // in stops, the automatic part included
   io::WriteExr(fileName, { part });
 }
 

@@ -26,7 +26,7 @@ struct LinearLayer
 };
 
 /// Draws the light of the renderer's visible props (vtkLinearFloatPass::RenderOffScreen).
-LinearLayer DrawLayer(vtkLinearFloatPass* pass, vtkRenderer* renderer);
+LinearLayer DrawLayer(vtkLinearFloatPass* pass, vtkRenderer* renderer, int reduction);
 
 /// Lays the nearer over the farther, sample by sample. False where their sizes differ.
 bool Composite(LinearLayer& layer, const LinearLayer& other);
@@ -44,6 +44,10 @@ struct LinearPicture
   std::vector<float> Distance; ///< from the camera's plane, in the scene's units
 };
 LinearPicture Average(const LinearLayer& layer, const std::function<double(double)>& distanceOf);
+
+/// The exposure, in stops, that brings the typical light of a picture (its geometric mean) to a
+/// quarter of white, and keeps all but the brightest 2 % below white; 0 where there is no light.
+double FittingStops(const LinearPicture& picture);
 
 /// From the process that has the picture to the one at the other end.
 void SendPicture(vtkMultiProcessController* controller, const LinearPicture& picture);

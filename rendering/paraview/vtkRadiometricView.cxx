@@ -4,7 +4,6 @@
 #include "LinearCapture.h"
 #include "color/ColorConfig.h"
 #include "io/FileError.h"
-#include "radiometry/imaging/Exposure.h"
 
 #include "vtkLinearFloatPass.h"
 #include "vtkMultiProcessController.h"
@@ -18,7 +17,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 namespace color = radiometry::color;
 
@@ -61,14 +59,35 @@ vtkForwardNameMacro(Look);
 
 void vtkRadiometricView::SetExposure(double stops)
 {
-  if (this->Pass->GetExposure() != stops)
+  this->Exposure = stops;
+  this->UpdateExposure();
+}
+
+void vtkRadiometricView::SetAutoExposure(bool on)
+{
+  this->AutoExposure = on;
+  this->UpdateExposure();
+}
+
+void vtkRadiometricView::SetAutomaticStops(double stops)
+{
+  this->AutomaticStops = stops;
+  this->UpdateExposure();
+}
+
+double vtkRadiometricView::GetUsedExposure()
+{
+  return this->Exposure + (this->AutoExposure ? this->AutomaticStops : 0.0);
+}
+
+void vtkRadiometricView::UpdateExposure()
+{
+  if (this->Pass->GetExposure() != this->GetUsedExposure())
   {
-    this->Pass->SetExposure(stops);
+    this->Pass->SetExposure(this->GetUsedExposure());
     this->Modified();
   }
 }
-
-double vtkRadiometricView::GetExposure() { return this->Pass->GetExposure(); }
 
 //------------------------------------------------------------------------------
 namespace
@@ -145,7 +164,8 @@ void vtkRadiometricView::AboutToRenderOnLocalProcess(bool interactive)
 //------------------------------------------------------------------------------
 /// Draws the light on every process that draws, and brings it together; true on the process that then
 /// has it (or, with a width of 0, knows that it could not be had).
-bool vtkRadiometricView::CollectPicture(vtkradiometry::LinearPicture& picture)
+bool vtkRadiometricView::CollectPicture(
+  vtkradiometry::LinearPicture& picture, int samples, int reduction)
 {
   const bool distributed = this->GetUseDistributedRenderingForRender();
   vtkMultiProcessController* client = this->GetSession()->GetController(vtkPVSession::CLIENT);
@@ -161,9 +181,9 @@ bool vtkRadiometricView::CollectPicture(vtkradiometry::LinearPicture& picture)
   {
     return false;
   }
-  this->CapturePass->SetSamples(this->Samples);
+  this->CapturePass->SetSamples(samples);
   vtkradiometry::LinearLayer layer =
-    vtkradiometry::DrawLayer(this->CapturePass, this->GetRenderer());
+    vtkradiometry::DrawLayer(this->CapturePass, this->GetRenderer(), reduction);
   bool whole = layer.Samples > 0;
   if (this->IsComposited())
   {
@@ -188,18 +208,20 @@ bool vtkRadiometricView::CollectPicture(vtkradiometry::LinearPicture& picture)
 }
 
 //------------------------------------------------------------------------------
-void vtkRadiometricView::MeasureExposure()
+double vtkRadiometricView::MeasureExposure()
 {
-  namespace imaging = radiometry::imaging;
+  // A quarter of the width and of the height tells as much.
+  constexpr int reduction = 4;
   vtkradiometry::LinearPicture picture;
-  if (!this->CollectPicture(picture) || picture.Width <= 0)
+  if (this->CollectPicture(picture, 1, reduction) && picture.Width > 0)
   {
-    return;
+    const double stops = vtkradiometry::FittingStops(picture);
+    if (std::abs(stops - this->AutomaticStops) > 0.25 || this->MeasuredStops == 0.0)
+    {
+      this->MeasuredStops = std::round(4.0 * stops) / 4.0;
+    }
   }
-  const std::vector<double> pixels(picture.Color.begin(), picture.Color.end());
-  const auto luminances = imaging::PixelLuminances(pixels.data(), pixels.size() / 4, 4, 1.0);
-  const double white = imaging::LuminancePercentile(luminances, 99.0);
-  this->MeasuredExposure = white > 0.0 ? -std::log2(white) : 0.0;
+  return this->MeasuredStops;
 }
 
 //------------------------------------------------------------------------------
@@ -207,7 +229,7 @@ int vtkRadiometricView::CaptureLinear(const char* fileName)
 {
   using namespace vtkradiometry;
   LinearPicture picture;
-  if (!this->CollectPicture(picture))
+  if (!this->CollectPicture(picture, this->Samples, 1))
   {
     return 1;
   }
@@ -230,7 +252,7 @@ int vtkRadiometricView::CaptureLinear(const char* fileName)
     notes.Display = this->GetDisplay();
     notes.View = this->GetView();
     notes.Look = this->GetLook();
-    notes.Exposure = this->GetExposure();
+    notes.Exposure = this->GetUsedExposure();
     notes.Samples = this->Samples;
     WritePicture(fileName, picture, this->GetRenderer(), notes);
   }

@@ -78,11 +78,11 @@ public:
 
   ///@{
   /**
-   * Exposure in stops: light is multiplied by 2^Exposure. Default 0; any finite number. Not the
-   * tone mapping's of vtkPVRenderView, which this view does not have.
+   * Exposure in stops: light is multiplied by 2^Exposure, beside what AutoExposure finds. Default
+   * 0; any finite number. Not the tone mapping's of vtkPVRenderView, which this view does not have.
    */
   void SetExposure(double stops);
-  double GetExposure();
+  vtkGetMacro(Exposure, double);
   ///@}
 
   ///@{
@@ -118,13 +118,30 @@ public:
 
   ///@{
   /**
-   * The exposure, in stops, at which 99 in 100 of the pixels with light are at most white in the
-   * view "Plain" (radiometry/imaging/Exposure.h); 0 for a picture without light. Measured on every
-   * process of the view together and known to the client (root of pvbatch).
+   * On (default): a part of the exposure is found from the picture: its typical light becomes a
+   * quarter of white, and all but the brightest 2 % stay below white. In quarter stops; it stays
+   * while the picture calls for less than a quarter stop of change. Exposure is added to it. Found
+   * by the view's proxy for still pictures, the same on all processes.
    */
-  void MeasureExposure();
-  vtkGetMacro(MeasuredExposure, double);
+  void SetAutoExposure(bool on);
+  vtkGetMacro(AutoExposure, bool);
   ///@}
+
+  ///@{
+  /**
+   * The automatic part, in stops: measured on every process of the view together, known to the
+   * client (root of pvbatch), which sets it on all.
+   */
+  double MeasureExposure();
+  void SetAutomaticStops(double stops);
+  vtkGetMacro(AutomaticStops, double);
+  vtkGetMacro(MeasuredStops, double);
+  ///@}
+
+  /**
+   * The exposure that is in use, in stops: Exposure and the automatic part.
+   */
+  double GetUsedExposure();
 
   ///@{
   /**
@@ -145,14 +162,18 @@ private:
   void operator=(const vtkRadiometricView&) = delete;
 
   bool IsComposited();
-  bool CollectPicture(vtkradiometry::LinearPicture& picture);
+  bool CollectPicture(vtkradiometry::LinearPicture& picture, int samples, int reduction);
+  void UpdateExposure();
 
   vtkNew<vtkOpenColorIOPass> Pass;
   vtkNew<vtkLinearFloatPass> CapturePass;
   vtkNew<vtkStringArray> Names;
   std::string Message;
   int Samples = 1;
-  double MeasuredExposure = 0.0;
+  double Exposure = 0.0;
+  bool AutoExposure = true;
+  double AutomaticStops = 0.0;
+  double MeasuredStops = 0.0;
 };
 
 #endif

@@ -6,7 +6,6 @@
 #include "vtkRadiometricView.h"
 #include "vtkSMPropertyHelper.h"
 
-#include <cmath>
 
 vtkStandardNewMacro(vtkSMRadiometricViewProxy);
 
@@ -27,21 +26,12 @@ void vtkSMRadiometricViewProxy::UpdateVTKObjects()
   {
     vtkSMPropertyHelper(this, "CaptureLinear", true).Set("");
   }
-  const bool fit = vtkSMPropertyHelper(this, "FitExposure", true).GetAsInt() != 0;
-  if (fit)
-  {
-    vtkSMPropertyHelper(this, "FitExposure", true).Set(0);
-  }
   this->Superclass::UpdateVTKObjects();
   if (!this->ObjectsCreated)
   {
     return;
   }
   this->UpdateLists();
-  if (fit)
-  {
-    this->FitExposure();
-  }
   if (!file.empty())
   {
     this->CaptureLinear(file.c_str());
@@ -74,18 +64,26 @@ void vtkSMRadiometricViewProxy::CaptureLinear(const char* fileName)
   this->ExecuteStream(stream);
 }
 
-void vtkSMRadiometricViewProxy::FitExposure()
+void vtkSMRadiometricViewProxy::StillRender()
 {
-  this->StillRender();
-  vtkClientServerStream stream;
-  stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "MeasureExposure"
-         << vtkClientServerStream::End;
-  this->ExecuteStream(stream);
-  if (auto* view = vtkRadiometricView::SafeDownCast(this->GetClientSideObject()))
+  this->Superclass::StillRender();
+  auto* view = vtkRadiometricView::SafeDownCast(this->GetClientSideObject());
+  if (!view || !view->GetAutoExposure())
   {
-    vtkSMPropertyHelper(this, "Exposure", true)
-      .Set(std::round(100.0 * view->GetMeasuredExposure()) / 100.0);
-    this->Superclass::UpdateVTKObjects();
+    return;
+  }
+  vtkClientServerStream measure;
+  measure << vtkClientServerStream::Invoke << VTKOBJECT(this) << "MeasureExposure"
+          << vtkClientServerStream::End;
+  this->ExecuteStream(measure);
+  const double stops = view->GetMeasuredStops();
+  if (stops != view->GetAutomaticStops())
+  {
+    vtkClientServerStream use;
+    use << vtkClientServerStream::Invoke << VTKOBJECT(this) << "SetAutomaticStops" << stops
+        << vtkClientServerStream::End;
+    this->ExecuteStream(use);
+    this->Superclass::StillRender();
   }
 }
 

@@ -6,7 +6,8 @@
  * Keeps the panel's lists (displays, views, looks, colour spaces) with the config and the display
  * that are set, and makes CaptureLinear a command: setting the property to a file name renders the
  * view, writes the file, and empties the property, so that no state holds it and the same name can
- * be set again. FitExposure is such a command, too: setting it to 1 sets Exposure from the picture.
+ * be set again. Still renders find the automatic part of the exposure and, where it changes, draw
+ * the picture again.
  */
 #ifndef vtkSMRadiometricViewProxy_h
 #define vtkSMRadiometricViewProxy_h
@@ -30,11 +31,7 @@ public:
    */
   void CaptureLinear(const char* fileName);
 
-  /**
-   * Renders the view and sets its Exposure to fit (vtkRadiometricView::MeasureExposure), to a
-   * hundredth of a stop.
-   */
-  void FitExposure();
+  void StillRender() override;
 
 protected:
   vtkSMRadiometricViewProxy();

@@ -26,6 +26,12 @@ def shown(source, view, **properties):
 pv._DisableFirstRenderCameraReset()
 
 
+def used_exposure(view):
+    used = view.SMProxy.GetProperty("UsedExposure")
+    view.SMProxy.UpdatePropertyInformation(used)
+    return used.GetElement(0)
+
+
 def make_scene(view, others=True):
     """Two lit surfaces under a lamp; with others a false-coloured column, its legend, the lamp drawn."""
     shown(pv.Sphere(ThetaResolution=40, PhiResolution=40), view,
@@ -69,9 +75,7 @@ def main(folder, url=None):
     pv.SaveScreenshot(os.path.join(folder, "picture.png"), view, ImageResolution=SIZE)
     view.Samples = 2
     view.CaptureLinear = os.path.join(folder, "linear.exr")
-    view.FitExposure = 1
-    print("exposure", view.Exposure)
-    view.Exposure = 0
+    print("exposure", used_exposure(view))
     shown(pv.Plane(Origin=[-1, -1, 0.7], Point1=[1, -1, 0.7], Point2=[-1, 1, 0.7], XResolution=4,
                    YResolution=4), view, DiffuseColor=[0.2, 0.5, 0.9], Opacity=0.5)
     view.Samples = 1
