@@ -104,7 +104,11 @@ void Target::Release(vtkWindow* window)
   *this = Target();
 }
 
+FullScreenPass::FullScreenPass() = default;
+
 FullScreenPass::~FullScreenPass() = default;
+
+void FullScreenPass::Release() { this->Helper.reset(); }
 
 bool FullScreenPass::Ready(vtkOpenGLRenderWindow* window, const std::string& fragmentShader)
 {

@@ -41,11 +41,12 @@ public:
 class FullScreenPass
 {
 public:
+  FullScreenPass();
   ~FullScreenPass();
   /// False where it does not compile.
   bool Ready(vtkOpenGLRenderWindow* window, const std::string& fragmentShader);
   vtkOpenGLQuadHelper* Quad() { return this->Helper.get(); }
-  void Release() { this->Helper.reset(); }
+  void Release();
   const std::string& Text() const { return this->Source; }
 
 private:
