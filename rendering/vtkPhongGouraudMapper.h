@@ -109,7 +109,7 @@ public:
   ///@{
   /**
    * Shading Auto: share of the time between frames that deciding may take; until it is done, and
-   * while what it depends on changes from frame to frame, all is Phong. Default 0.03. 0: never
+   * while what it depends on changes from frame to frame, all is Phong. Default 0.02. 0: never
    * decide. 1e6 and more: at once, before the frame, which makes pictures repeatable.
    */
   vtkSetClampMacro(ShadingTimeShare, double, 0.0, VTK_DOUBLE_MAX);
@@ -360,7 +360,7 @@ protected:
   bool UseLightVisibility = true;
   bool EveryEffect = false;
   double ShadingTolerance = 0.5 / 255.0;
-  double ShadingTimeShare = 0.03;
+  double ShadingTimeShare = 0.02;
   double GreatestDifference = -1.0;
   vtkSmartPointer<vtkPolyData> LightData;
 
