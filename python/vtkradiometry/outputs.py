@@ -186,6 +186,9 @@ def _pictures(output, scene, view, surface, options):
               option_values(options))
     path = output.path("scene.png", "the same picture through OpenColorIO's display transform")
     shown = picture.write_png(path, drawn.rgb, exposure, options.display, options.view)
+    path = output.path("luminance.png", "luminance of the same picture in cd/m2 as false colour, "
+                       "logarithmic, with legend")
+    picture.write_luminance(path, drawn, scene.efficacy())
     return {"exposure in stops": round(exposure, 3), **shown,
             "size": "x".join(map(str, options.size)), "camera": scene.camera.origin,
             "triangles in the picture's mesh": len(view.mesh.origin)}
@@ -249,6 +252,8 @@ def write_all(output, scene, results, options, progress):
         f"{quantities.format_percent(summary['error'])} of the mean.")
     if options.time_budget > 0.0:
         sentence += f" {results[-1].name}: {results[-1].facts().get('Outcome', 'done')}."
+    if not (scene.lights.lit or scene.emits):
+        sentence += (" Nothing gives light, so all is black: --luminaire, --sky and --sun add lights.")
     if plane is not None:
         sentence += "\n" + plane.sentence()
     document = {

@@ -10,6 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer, vtkRenderWindow
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the renderer)
 
 from .vtkRadiometryRendering import (
+    vtkFalseColorImageFilter,
     vtkLinearFloatPass,
     vtkOpenColorIOImageFilter,
     vtkPhongGouraudMapper,
@@ -183,6 +184,26 @@ def to_image(values):
     return image
 
 
+def write_luminance(path, drawn, efficacy):
+    """The picture's luminance through a logarithmic colour map, with its legend."""
+    alpha = (drawn.cells >= 0)[:, :, None]
+    colour = vtkFalseColorImageFilter()
+    colour.SetInputData(to_image(np.concatenate([drawn.rgb, alpha], axis=2).astype(np.float32)))
+    colour.SetLuminancePerUnit(efficacy)
+    with Listener() as listener:
+        listener.observe(colour)
+        colour.Update()
+        listener.check("luminance")
+    _write_image(path, colour.GetOutput())
+
+
+def _write_image(path, image):
+    writer = vtkPNGWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(image)
+    writer.Write()
+
+
 def write_png(path, rgb, exposure, display, view):
     """The picture through OpenColorIO's display transform; returns what was used."""
     transform = vtkOpenColorIOImageFilter()
@@ -198,9 +219,6 @@ def write_png(path, rgb, exposure, display, view):
         transform.Update()
         listener.check("display transform")
     shown = vtk_to_numpy(transform.GetOutput().GetPointData().GetScalars())
-    writer = vtkPNGWriter()
-    writer.SetFileName(path)
-    writer.SetInputData(to_image(shown.reshape(rgb.shape[0], rgb.shape[1], -1)[:, :, :3]))
-    writer.Write()
+    _write_image(path, to_image(shown.reshape(rgb.shape[0], rgb.shape[1], -1)[:, :, :3]))
     return {"display": transform.GetUsedDisplay(), "view": transform.GetUsedView(),
             "OpenColorIO config": transform.GetUsedConfig()}

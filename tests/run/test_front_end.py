@@ -13,10 +13,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import tiny_scene
+from vtkradiometry import vtkOpenEXRReader
 from front_end import exr_channels, exr_header, listing, require, run
 
-FILES = {"scene.vtp", "scene.exr", "scene.png", "falsecolor.png", "convergence.png",
-         "convergence.csv", "report.txt", "report.json"}
+FILES = {"scene.vtp", "scene.exr", "scene.png", "luminance.png", "falsecolor.png",
+         "convergence.png", "convergence.csv", "report.txt", "report.json"}
 SIZE = (320, 200)
 
 
@@ -87,6 +88,22 @@ def check_legend(path):
     require(dark > 0.005, "no text beside the legend in", path)
 
 
+def check_luminance(folder):
+    """Beside the picture its legend; brighter where the linear picture is."""
+    shown = image.imread(os.path.join(folder, "luminance.png"))[:, :, :3]
+    require(shown.shape[0] == SIZE[1] and shown.shape[1] > SIZE[0] + 40, shown.shape)
+    linear = vtkOpenEXRReader()
+    linear.SetFileName(os.path.join(folder, "scene.exr"))
+    linear.Update()
+    rgb = vtk_to_numpy(linear.GetOutput().GetPointData().GetScalars())[:, :3]
+    luminance = (rgb @ [0.2126, 0.7152, 0.0722]).reshape(SIZE[1], SIZE[0])[::-1].ravel()
+    green = shown[:, :SIZE[0], 1].ravel()  # of viridis: rises with the value
+    seen = luminance > 0.0
+    dim, bright = np.quantile(luminance[seen], [0.2, 0.8])
+    require(green[luminance > bright].mean() > green[seen & (luminance < dim)].mean() + 0.1,
+            "luminance.png does not follow the picture")
+
+
 def check_report(folder):
     with open(os.path.join(folder, "report.json"), encoding="utf-8") as stream:
         report = json.load(stream)
@@ -130,6 +147,7 @@ with tempfile.TemporaryDirectory() as where:
     check_surface(os.path.join(out, "scene.vtp"))
     check_exr(os.path.join(out, "scene.exr"))
     check_png(os.path.join(out, "scene.png"), 0.05)
+    check_luminance(out)
     check_legend(os.path.join(out, "falsecolor.png"))
     check_png(os.path.join(out, "convergence.png"), 0.02, 0.99)  # lines on white
     check_csv(os.path.join(out, "convergence.csv"))
