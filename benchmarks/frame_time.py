@@ -199,7 +199,7 @@ def measure(rows, surface, kind, count, material, target, size, frames):
     if "stock" in results:
         for row in results.values():
             row["times stock"] = row["processor"] / results["stock"]["processor"]
-    return {"kind": kind, "lights": count, "material": material, "target": target, "rows": results}
+    return {"commit": provenance()["commit"], "kind": kind, "lights": count, "material": material, "target": target, "rows": results}
 
 
 def show(case):
@@ -209,7 +209,9 @@ def show(case):
 
 
 def stock_table(data):
-    lines = [f"Commit {data['commit']}, {data['processor']}, {data['cores']} cores, load "
+    later = {case["commit"] for case in data["cases"]} - {data["commit"]}
+    commits = data["commit"] + "".join(f" (some cases: {commit})" for commit in sorted(later))
+    lines = [f"Commit {commits}, {data['processor']}, {data['cores']} cores, load "
              f"{data['load']:.0f} when it began, {data['renderer']}; {data['triangles']} triangles, "
              f"{data['size']}² pixels. Milliseconds of the processor (all threads) a frame, and how many "
              "times VTK's.", "",
