@@ -236,7 +236,8 @@ TEST(Parity, NormalsAndDepth)
       ++compared;
       for (int c = 0; c < 3; ++c)
       {
-        EXPECT_NEAR(picture[4 * i + c], expected.Normal[c], 3e-6) << scene.Name;
+        // Normals are interpolated in single precision: 3e-6 with Mesa 22, 6.4e-6 with Mesa 25.
+        EXPECT_NEAR(picture[4 * i + c], expected.Normal[c], 1e-5) << scene.Name;
       }
       EXPECT_NEAR(depth[i], expected.Depth, 2e-5 * expected.Depth) << scene.Name;
     }

@@ -237,7 +237,8 @@ def test_attached_lights_follow_their_frames():
             if frame == 2:
                 # Given in eye coordinates, near the surface: 5 in front of the eye.
                 eye = (spot["Position"][0], spot["Position"][1], spot["Position"][2] - 5)
-                w.mapper.SetLightData(lights({**spot, "Position": eye, "AttachedTo": 2}))
+                w.mapper.GetLightData().DeepCopy(
+                    lights({**spot, "Position": eye, "AttachedTo": 2}))
                 where = eye
             if matrix:
                 where = matrix.MultiplyPoint((*where, 1))[:3]

@@ -112,17 +112,23 @@ def test_many_sources_and_what_takes_them_away():
     pv.Delete(view)
 
 
+def translate(surface, by):
+    """Moves what is shown; ParaView 5.13 gave the property another name."""
+    newer = "Translation" in surface.ListProperties()
+    surface.SetPropertyWithName("Translation" if newer else "Position", by)
+
+
 def test_attached_lights_and_attenuation():
     view = new_view()
     surface = show_surface(new_plane(), view)
     lamp = pv.PointLight(Position=[0, 0, 1], Intensity=1.0)
     show_lights(lamp, view)
     expect(picture(view), 0.4, 0.0, radiance(1.0, 1.0, 0.4, 0.0))
-    surface.Position = [0, 0, -1]
+    translate(surface, [0, 0, -1])
     expect(picture(view), 0.4, 0.0, radiance(1.0, 2.0, 0.4, 0.0))
     lamp.AttachedTo = "Object"
     expect(picture(view), 0.4, 0.0, radiance(1.0, 1.0, 0.4, 0.0))
-    surface.Position = [0, 0, 0]
+    translate(surface, [0, 0, 0])
     lamp.AttachedTo = "Camera"  # the eye is at z = 5 and looks along -z
     lamp.Position = [0, 0, -3]
     expect(picture(view), 0.4, 0.0, radiance(1.0, 2.0, 0.4, 0.0))
@@ -218,7 +224,7 @@ def test_glyphs():
         # The representation's own transform moves neither the glyph nor the light.
         source.LightEnabled = 1
         here = picture(view)
-        lights.Position = [0.3, 0.3, 0]
+        translate(lights, [0.3, 0.3, 0])
         check((picture(view) == here).all(), kind)
         pv.Hide(source, view)
     square = pv.AreaLight()
