@@ -56,6 +56,7 @@ def written_plane(file_name, columns, arrays, height=None):
         array.SetName(name)
         data.GetCellData().AddArray(array)
     writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToBinary()  # see tests/appended_xml.py
     writer.SetFileName(os.path.join(FOLDER, file_name))
     writer.SetInputData(data)
     writer.Write()
@@ -474,6 +475,7 @@ def test_every_kind_of_data():
     for axis in "XYZ":
         getattr(grid, f"Set{axis}Coordinates")(numpy_to_vtk(np.array([-1.0, 0.0, 1.0]), deep=True))
     writer = vtkXMLRectilinearGridWriter()
+    writer.SetDataModeToBinary()  # see tests/appended_xml.py
     writer.SetFileName(os.path.join(FOLDER, "grid.vtr"))
     writer.SetInputData(grid)
     writer.Write()

@@ -76,14 +76,19 @@ def main(folder, url=None):
     view.Samples = 2
     view.CaptureLinear = os.path.join(folder, "linear.exr")
     print("exposure", used_exposure(view))
+    if not os.environ.get("RADIOMETRY_NO_GLASS"):
+        draw_glass(folder, view)
+    if url:
+        pv.Disconnect()
+
+
+def draw_glass(folder, view):
     shown(pv.Plane(Origin=[-1, -1, 0.7], Point1=[1, -1, 0.7], Point2=[-1, 1, 0.7], XResolution=4,
                    YResolution=4), view, DiffuseColor=[0.2, 0.5, 0.9], Opacity=0.5)
     view.Samples = 1
     pv.Render(view)
     pv.SaveScreenshot(os.path.join(folder, "glass.png"), view, ImageResolution=SIZE)
     view.CaptureLinear = os.path.join(folder, "glass.exr")
-    if url:
-        pv.Disconnect()
 
 
 if __name__ == "__main__":
