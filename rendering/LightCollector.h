@@ -64,6 +64,11 @@ struct LocalCoordinates
   std::array<float, 3> Eye{ { 0.0f, 0.0f, 0.0f } };
 };
 
+/// A place, moved.
+radiometry::Vec3 TransformPoint(vtkMatrix4x4* m, const radiometry::Vec3& p);
+/// A direction, moved with the surface (no inverse transpose); its length is made one.
+radiometry::Vec3 TransformDirection(vtkMatrix4x4* m, const radiometry::Vec3& d);
+
 /// Lights as the shaders read them: six RGBA texels a light, in local coordinates, directional
 /// lights first, then points, then spots.
 ///   0  x y z of the position, or of the direction that the light comes from; its place among the
@@ -89,6 +94,10 @@ struct PackedLights
   int Count() const { return this->Ranges.back()[1]; }
   ShaderFeatures Features; // what these lights need of the shader
 };
+
+/// Whether there are luminaires with a web, area lights or skies among the lights, for which there is no
+/// bound on what Gouraud shading changes.
+bool NeedsExtendedLights(const ShaderFeatures& features);
 
 /// Moves lights into local coordinates and packs them. Only lights that give light are kept.
 ///   objectToWorld   as vtkProp3D gives it

@@ -13,6 +13,28 @@
 
 namespace vtkradiometry
 {
+
+radiometry::Vec3 TransformPoint(vtkMatrix4x4* m, const radiometry::Vec3& p)
+{
+  double in[4] = { p.x, p.y, p.z, 1.0 };
+  double out[4];
+  m->MultiplyPoint(in, out);
+  return { out[0] / out[3], out[1] / out[3], out[2] / out[3] };
+}
+
+radiometry::Vec3 TransformDirection(vtkMatrix4x4* m, const radiometry::Vec3& d)
+{
+  double in[4] = { d.x, d.y, d.z, 0.0 };
+  double out[4];
+  m->MultiplyPoint(in, out);
+  return radiometry::Normalized({ out[0], out[1], out[2] });
+}
+
+bool NeedsExtendedLights(const ShaderFeatures& features)
+{
+  return features.count("Luminaire") + features.count("Area") + features.count("Sky") > 0;
+}
+
 namespace
 {
 
@@ -31,23 +53,6 @@ void Put(std::vector<float>& texels, double x, double y, double z, double w)
 bool IsBlack(const Rgb& c)
 {
   return c == Rgb();
-}
-
-Vec3 TransformPoint(vtkMatrix4x4* m, const Vec3& p)
-{
-  double in[4] = { p.x, p.y, p.z, 1.0 };
-  double out[4];
-  m->MultiplyPoint(in, out);
-  return { out[0] / out[3], out[1] / out[3], out[2] / out[3] };
-}
-
-/// A direction moves with the surface (no inverse transpose); its length is made one.
-Vec3 TransformDirection(vtkMatrix4x4* m, const Vec3& d)
-{
-  double in[4] = { d.x, d.y, d.z, 0.0 };
-  double out[4];
-  m->MultiplyPoint(in, out);
-  return radiometry::Normalized({ out[0], out[1], out[2] });
 }
 
 enum Kind

@@ -24,23 +24,11 @@ using radiometry::DisplayMaterial;
 using radiometry::Rgb;
 using radiometry::Vec3;
 using vtkradiometry::ShadingChoice;
+using vtkradiometry::TransformDirection;
+using vtkradiometry::TransformPoint;
 
 namespace
 {
-
-Vec3 Point(vtkMatrix4x4* m, const Vec3& p)
-{
-  double v[4] = { p.x, p.y, p.z, 1.0 };
-  m->MultiplyPoint(v, v);
-  return { v[0] / v[3], v[1] / v[3], v[2] / v[3] };
-}
-
-Vec3 Direction(vtkMatrix4x4* m, const Vec3& d)
-{
-  double v[4] = { d.x, d.y, d.z, 0.0 };
-  m->MultiplyPoint(v, v);
-  return radiometry::Normalized({ v[0], v[1], v[2] });
-}
 
 Rgb Scaled(double s, const double* c)
 {
@@ -149,8 +137,8 @@ radiometry::ShadedScene vtkPhongGouraudHelper::SceneOf(
   scene.Model.Reflection = static_cast<radiometry::ReflectionModel>(mapper->ReflectionModel);
   scene.Model.LocalViewer = mapper->LocalViewer && !camera->GetParallelProjection();
   scene.Model.TwoSided = mapper->TwoSided || act->GetBackfaceProperty();
-  scene.Eye = Point(viewToWorld, {});
-  scene.Viewer = Direction(viewToWorld, { 0.0, 0.0, 1.0 });
+  scene.Eye = TransformPoint(viewToWorld, {});
+  scene.Viewer = TransformDirection(viewToWorld, { 0.0, 0.0, 1.0 });
   for (std::size_t i = 0; i < collected.Lights.size(); ++i)
   {
     DisplayLight light = collected.Lights[i];
@@ -161,9 +149,10 @@ radiometry::ShadedScene vtkPhongGouraudHelper::SceneOf(
         : viewToWorld.Get();
       const Vec3 given{ light.Position[0], light.Position[1], light.Position[2] };
       const Vec3 place =
-        light.Position[3] == 0.0 ? Direction(toWorld, given) : Point(toWorld, given);
+        light.Position[3] == 0.0 ? TransformDirection(toWorld, given)
+                                 : TransformPoint(toWorld, given);
       light.Position = { { place.x, place.y, place.z, light.Position[3] == 0.0 ? 0.0 : 1.0 } };
-      light.SpotDirection = Direction(toWorld, light.SpotDirection);
+      light.SpotDirection = TransformDirection(toWorld, light.SpotDirection);
     }
     light.Attenuation[1] *= mapper->MetersPerUnit;
     light.Attenuation[2] *= mapper->MetersPerUnit * mapper->MetersPerUnit;
@@ -269,13 +258,10 @@ void vtkPhongGouraudHelper::DecideShading(
     reason = "nothing is lit";
     return;
   }
-  for (const char* kind : { "Luminaire", "Area", "Sky" })
+  if (vtkradiometry::NeedsExtendedLights(this->Lights.Features))
   {
-    if (this->Lights.Features.count(kind))
-    {
-      reason = "Phong: there is no bound for luminaires with a web, area lights and skies";
-      return;
-    }
+    reason = "Phong: there is no bound for luminaires with a web, area lights and skies";
+    return;
   }
   if (!this->HasPointNormals())
   {

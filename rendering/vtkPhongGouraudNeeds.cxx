@@ -213,12 +213,9 @@ int vtkPhongGouraudHelper::ChooseShading(const ShaderFeatures& needs, bool highl
   {
     return shading;
   }
-  for (const char* kind : { "Luminaire", "Area", "Sky" })
+  if (vtkradiometry::NeedsExtendedLights(needs))
   {
-    if (Has(needs, kind))
-    {
-      return vtkPhongGouraudMapper::PHONG;
-    }
+    return vtkPhongGouraudMapper::PHONG;
   }
   // Directional lights on a diffuse surface with one normal a cell: nothing varies in a cell.
   if (this->ConstantInCells && !specular && !Has(needs, "Finite"))

@@ -10,24 +10,20 @@ from vtkmodules.vtkCommonCore import vtkLookupTable, vtkUnsignedCharArray, vtkVe
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
-    vtkActor,
     vtkColorTransferFunction,
     vtkCompositeDataDisplayAttributes,
     vtkDiscretizableColorTransferFunction,
-    vtkRenderer,
-    vtkRenderWindow,
 )
-from vtkradiometry.vtkRadiometryRendering import vtkPhongGouraudMapper
 
 SIZE = 200
 
 
-class Picture:
+class Picture(Window):
     """A window of 8 bits with one surface in false colour, seen as drawing.Window does."""
 
     def __init__(self, surface, table, array, cells=False, size=SIZE):
-        self.size = size
-        self.mapper = vtkPhongGouraudMapper()
+        super().__init__(size)
+        self.renderer.SetPass(None)
         self.mapper.SetInputDataObject(surface)
         self.mapper.SetFieldModeToFalseColor()
         self.mapper.SetLookupTable(table)
@@ -37,22 +33,6 @@ class Picture:
             self.mapper.SetScalarModeToUseCellFieldData()
         else:
             self.mapper.SetScalarModeToUsePointFieldData()
-        actor = vtkActor()
-        actor.SetMapper(self.mapper)
-        self.actor = actor
-        self.renderer = vtkRenderer()
-        self.renderer.AddActor(actor)
-        camera = self.renderer.GetActiveCamera()
-        camera.SetPosition(0, 0, 5)
-        camera.SetFocalPoint(0, 0, 0)
-        camera.SetParallelProjection(True)
-        camera.SetParallelScale(1.0)
-        camera.SetClippingRange(1, 10)
-        self.window = vtkRenderWindow()
-        self.window.SetOffScreenRendering(1)
-        self.window.SetMultiSamples(0)
-        self.window.SetSize(size, size)
-        self.window.AddRenderer(self.renderer)
 
     def draw(self):
         self.window.Render()
