@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace vtkradiometry
 {
@@ -249,14 +248,11 @@ double FittingStops(const LinearPicture& picture)
   auto lit = imaging::PixelLuminances(pixels.data(), pixels.size() / 4, 4, 1.0);
   lit.erase(
     std::remove_if(lit.begin(), lit.end(), [](double value) { return !(value > 0.0); }), lit.end());
-  if (lit.empty())
-  {
-    return 0.0;
-  }
-  const double typical = imaging::Summarise(lit).GeometricMean;
-  const double bright = imaging::LuminancePercentile(lit, 98.0);
-  const double stops = std::log2(std::min(0.25 / typical, 1.0 / bright));
-  return std::isfinite(stops) ? stops : 0.0;
+  imaging::ExposureSettings settings;
+  settings.Mode = imaging::ExposureMode::Automatic;
+  settings.KeyValue = 0.25;
+  settings.Percentile = 98.0;
+  return imaging::ChooseExposure(lit, 1.0, settings).Stops;
 }
 
 //------------------------------------------------------------------------------
