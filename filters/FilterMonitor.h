@@ -9,8 +9,10 @@
 class FilterMonitor : public radiometry::Monitor
 {
 public:
-  explicit FilterMonitor(vtkAlgorithm* filter)
+  /// `predicted` (may be null) gets what the core predicts [s].
+  explicit FilterMonitor(vtkAlgorithm* filter, double* predicted = nullptr)
     : Filter(filter)
+    , PredictedSeconds(predicted)
   {
   }
   bool Progress(double fraction, const char* stage) override
@@ -20,6 +22,15 @@ public:
     return this->Filter->GetAbortExecute() == 0;
   }
 
+  void Predicted(double seconds) override
+  {
+    if (this->PredictedSeconds)
+    {
+      *this->PredictedSeconds = seconds;
+    }
+  }
+
 private:
   vtkAlgorithm* Filter;
+  double* PredictedSeconds;
 };

@@ -4,6 +4,7 @@
 #include "vtkRadiometricFilter.h"
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/accuracy/RunCost.h"
 #include "radiometry/effects/EffectPlan.h"
 #include "radiometry/irradiance/ShadowPieces.h"
 #include "radiometry/scene/Communicator.h"
@@ -34,6 +35,8 @@ struct vtkRadiometricFilter::Job
   std::size_t Memory = 0; // bytes that the run may take
   int Threads = 0;   // NumberOfThreads, or this process's share of the machine's; 0: all
   bool WantVisibility = false; // how much of each light arrives
+  double TimeBudget = 0.0; // seconds that are left of the filter's; 0: no limit
+  bool PilotOnly = false; // end where the cost of the run is known
   /// Where the input's own arrays are found.
   const SceneAdapter* Adapter = nullptr;
   const SurfacePoints* Carriers = nullptr;
@@ -77,6 +80,7 @@ struct vtkRadiometricFilter::Result
   std::vector<Omission> Omissions;
   std::vector<std::pair<std::string, double>> ErrorParts; // mean over the surface, W/m^2
   std::string Outcome;
+  radiometry::RunCost Cost;
   std::string Method; // and why
   /// Shares of lights, without unit and error: values x components.
   struct Shares

@@ -25,7 +25,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace names = radiometry::names;
 
@@ -314,6 +316,21 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   KeepStrings(data, "RadiometryOptions", ": ", options);
   AddStrings(data, "RadiometryOptions", options);
   AddStrings(data, "RadiometryOutcome", { result.Outcome });
+  const std::pair<const char*, double> costs[] = { { "Seconds", result.Cost.Seconds },
+    { "PredictedSeconds", result.Cost.PredictedSeconds },
+    { "PredictedAt", result.Cost.PredictedAt },
+    { "Samples", static_cast<double>(result.Cost.Samples) },
+    { "MemoryMiB", static_cast<double>(result.Cost.Bytes) / 1048576.0 } };
+  vtkNew<vtkDoubleArray> cost;
+  cost->SetName("RadiometryCost");
+  cost->SetNumberOfComponents(static_cast<int>(std::size(costs)));
+  cost->SetNumberOfTuples(1);
+  for (int k = 0; k < static_cast<int>(std::size(costs)); ++k)
+  {
+    cost->SetComponentName(k, costs[k].first);
+    cost->SetTypedComponent(0, k, costs[k].second);
+  }
+  data->AddArray(cost);
   if (!result.Method.empty())
   {
     AddStrings(data, "RadiometryMethod", { result.Method });
@@ -340,6 +357,10 @@ void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) con
   for (std::size_t k = 0; k < result.Effects.size(); ++k)
   {
     const radiometry::EffectDecision& d = result.Effects[k];
+    if (!d.Known)
+    {
+      continue;
+    }
     add(radiometry::EffectName(static_cast<radiometry::Effect>(k)),
       d.Simulated ? "simulated" : (d.Present ? "left out" : "not needed"), d.Why, d.Bound,
       d.Seconds);

@@ -18,7 +18,8 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   radiometry::IrradianceOptions options;
   options.RelativeTolerance = this->RelativeTolerance;
   options.AbsoluteTolerance = this->AbsoluteTolerance;
-  options.TimeBudget = this->TimeBudget;
+  options.TimeBudget = job.TimeBudget;
+  options.PilotOnly = job.PilotOnly;
   options.Threads = job.Threads;
   options.Ranks = job.Ranks;
   options.Cells = job.WantCells;
@@ -52,6 +53,7 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   AddShares(computed.PointVisibility, result.PointShares);
   result.Convergence = std::move(computed.Convergence);
   result.Effects = std::move(computed.Effects);
+  result.Cost = computed.Cost;
   result.Outcome = computed.Outcome;
   if (computed.DroppedPeak > 0.0)
   {

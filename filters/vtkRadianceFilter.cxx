@@ -69,6 +69,7 @@ void AddRow(Result& result, radiometry::Effect effect, bool present, bool simula
   const std::string& why, double bound)
 {
   radiometry::EffectDecision& row = result.Effects[static_cast<std::size_t>(effect)];
+  row.Known = true;
   row.Present = present;
   row.Simulated = present && simulated;
   row.Why = present ? (simulated ? why : "switched off; " + why) : why;

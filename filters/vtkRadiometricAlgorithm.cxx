@@ -69,6 +69,16 @@ const ControllerCommunicator* vtkRadiometricAlgorithm::Ranks()
   return ranks;
 }
 
+double vtkRadiometricAlgorithm::PredictSeconds()
+{
+  this->PilotOnly = true;
+  this->Modified();
+  this->Update();
+  this->PilotOnly = false;
+  this->Modified();
+  return this->PredictedSeconds;
+}
+
 void vtkRadiometricAlgorithm::CheckRange(
   const char* name, double value, double least, double most, const char* expected)
 {

@@ -56,6 +56,15 @@ public:
   vtkGetMacro(TimeBudget, double);
   ///@}
   ///@{
+  /// What the last execution said that it would take, before it spent it, and what it took [s];
+  /// below 0: nothing was said (before the first one, or a filter that does not predict).
+  vtkGetMacro(PredictedSeconds, double);
+  vtkGetMacro(ElapsedSeconds, double);
+  ///@}
+  /// Seconds that an execution with the present settings will take, by running the pilot of one;
+  /// outputs stay empty until the next update, which goes on from there. Below 0: it cannot be said.
+  double PredictSeconds();
+  ///@{
   /// Memory that the run may take [MiB]. Default 0: half of the machine's.
   vtkSetMacro(MemoryLimit, double);
   vtkGetMacro(MemoryLimit, double);
@@ -116,6 +125,9 @@ protected:
   bool TwoSided = false;
   double MetersPerUnit = 1.0;
   int NumberOfThreads = 0;
+  double PredictedSeconds = -1.0;
+  double ElapsedSeconds = 0.0;
+  bool PilotOnly = false; // an execution ends where its cost is known
   vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:

@@ -86,6 +86,7 @@ void vtkRadiometricFilter::SetObjectTransform(vtkMatrix4x4* matrix)
 void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const radiometry::ConvergenceRecord clock;
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   const double infinite = std::numeric_limits<double>::max();
   this->CheckLimits();
@@ -115,7 +116,8 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
   const radiometry::Scene scene = adapter.Build();
   const std::vector<double> wavelengths = CheckedWavelengths(stated, scene.Optics.Bands);
 
-  FilterMonitor monitor(this);
+  this->PredictedSeconds = -1.0;
+  FilterMonitor monitor(this, &this->PredictedSeconds);
   Job job{ scene, {}, {}, true, &monitor };
   job.Ranks = ranks;
   job.Memory = this->MemoryBytes(ranks);
@@ -135,7 +137,18 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
 
   Result result;
   job.WantVisibility = this->LightVisibility;
+  job.PilotOnly = this->PilotOnly;
+  if (this->TimeBudget > 0.0)
+  {
+    job.TimeBudget = std::max(1e-9, this->TimeBudget - clock.Elapsed());
+  }
   this->Simulate(job, result);
+  this->PredictedSeconds = result.Cost.PredictedSeconds;
+  if (this->PilotOnly)
+  {
+    this->ElapsedSeconds = clock.Elapsed();
+    return;
+  }
   result.LightKeys = adapter.LightKeys();
   AddDose(result.Cells, this->ExposureTime);
   AddDose(result.Points, this->ExposureTime);
@@ -165,6 +178,7 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
     writer.WriteEffects(result, vtkTable::GetData(outputs, 1));
     writer.WriteConvergence(result, vtkTable::GetData(outputs, 2));
   }
+  this->ElapsedSeconds = clock.Elapsed();
 }
 
 void vtkRadiometricFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -67,7 +67,8 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   radiometry::RadiosityOptions options;
   options.RelativeTolerance = this->RelativeTolerance;
   options.AbsoluteTolerance = this->AbsoluteTolerance;
-  options.TimeBudget = this->TimeBudget;
+  options.TimeBudget = job.TimeBudget;
+  options.PilotOnly = job.PilotOnly;
   options.MemoryLimit = job.Memory;
   options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);
   options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
@@ -108,6 +109,7 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   AddShares(computed.PointVisibility, result.PointShares);
   result.Convergence = std::move(computed.Cells.Convergence);
   result.Effects = std::move(computed.Effects);
+  result.Cost = computed.Cost;
   result.Outcome = computed.Cells.Outcome;
   result.Method = computed.Cells.MethodWhy;
 }

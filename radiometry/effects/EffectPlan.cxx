@@ -1,356 +1,119 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/effects/EffectPlan.h"
 
-#include "radiometry/geometry/SolidAngle.h"
-#include "radiometry/visibility/Convexity.h"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <sstream>
+#include <utility>
 
 namespace radiometry
 {
-namespace
-{
-
-double Greatest(const std::vector<double>& values)
-{
-  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-}
-double Greatest(const std::array<std::vector<double>, 2>& sides)
-{
-  return std::max(Greatest(sides[0]), Greatest(sides[1]));
-}
-double GreatestTransmittance(const Scene& scene)
-{
-  return std::max(Greatest(scene.Optics.Transmittance), Greatest(scene.TriangleTransmittance));
-}
-bool AnyOn(const std::vector<std::uint8_t>& flags)
-{
-  return std::any_of(flags.begin(), flags.end(), [](std::uint8_t f) { return f != 0; });
-}
-
-/// True when every light is finite and lies before the plane of every triangle, area lights perhaps on
-/// it.
-bool LightsInside(const Scene& scene)
-{
-  double extent = 0.0;
-  for (const Vec3& p : scene.Points)
-  {
-    extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
-  }
-  for (const Light& light : scene.Lights)
-  {
-    if (!light.Enabled)
-    {
-      continue;
-    }
-    if (light.Type == LightType::Directional || light.Type == LightType::Environment)
-    {
-      return false;
-    }
-    const std::vector<Vec3> places =
-      light.Type == LightType::Area ? light.Polygon : std::vector<Vec3>{ light.Position };
-    for (std::size_t t = 0; t < scene.Triangles.size(); ++t)
-    {
-      const Triangle3 v = scene.TriangleAt(t);
-      const Vec3 n = Normalized(AreaNormal2(v));
-      // A panel that lies on a surface is not hidden by it.
-      const double least = light.Type == LightType::Area ? -1e-12 * extent : 0.0;
-      if (std::any_of(places.begin(), places.end(), [&](const Vec3& p) {
-            const double height = Dot(n, p - v[0]);
-            return least < 0.0 ? height < least : height <= 0.0;
-          }))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-/// Specular reflectance of a triangle's cell, the greatest of sides and bands.
-double SpecularOf(const Materials& optics, std::int32_t cell)
-{
-  double greatest = 0.0;
-  for (const std::vector<double>& values : optics.SpecularReflectance)
-  {
-    for (int b = 0; b < optics.Bands && !values.empty(); ++b)
-    {
-      greatest = std::max(greatest, values[static_cast<std::size_t>(cell * optics.Bands + b)]);
-    }
-  }
-  return greatest;
-}
-
-/// What all mirrors send on of point-like and directional lights and of skies (of which no plane gets
-/// more than `sky`, W/m^2), were nothing in the way and every
-/// mirror two-sided [W, brightest band], and the smallest cell's area it may fall on.
-double SpecularFlux(const Scene& scene, double sky, double& smallest)
-{
-  constexpr double Sphere = 4.0 * 3.14159265358979323846;
-  constexpr std::size_t MostPairs = 20000000;
-  std::vector<double> areas(scene.Cells, 0.0);
-  std::vector<std::size_t> mirrors;
-  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
-  {
-    areas[static_cast<std::size_t>(scene.TriangleCell[t])] += Area(scene.TriangleAt(t));
-    if (SpecularOf(scene.Optics, scene.TriangleCell[t]) > 0.0)
-    {
-      mirrors.push_back(t);
-    }
-  }
-  smallest = std::numeric_limits<double>::infinity();
-  for (const double a : areas)
-  {
-    smallest = a > 0.0 ? std::min(smallest, a) : smallest;
-  }
-  const bool few = mirrors.size() * scene.Lights.size() <= MostPairs;
-  const double most = Greatest(scene.Optics.SpecularReflectance);
-  double flux = 0.0;
-  for (const std::size_t t : mirrors)
-  {
-    flux += 2.0 * sky * SpecularOf(scene.Optics, scene.TriangleCell[t]) * Area(scene.TriangleAt(t));
-  }
-  for (const Light& light : scene.Lights)
-  {
-    if (!light.Enabled || light.Type == LightType::Area || light.Type == LightType::Environment)
-    {
-      continue;
-    }
-    const double intensity = Greatest(light.Intensity);
-    const bool beam = light.Type == LightType::Directional;
-    if (!few && !beam)
-    {
-      flux += most * intensity * Sphere;
-      continue;
-    }
-    for (const std::size_t t : mirrors)
-    {
-      const Triangle3 v = scene.TriangleAt(t);
-      const double reflected = SpecularOf(scene.Optics, scene.TriangleCell[t]) * intensity;
-      flux += reflected *
-        (beam ? std::fabs(0.5 * Dot(AreaNormal2(v), light.Direction))
-              : std::fabs(SolidAngle(v[0] - light.Position, v[1] - light.Position,
-                  v[2] - light.Position)));
-    }
-  }
-  return flux;
-}
-
-/// The greatest pi L of panels, W/m^2, brightest band.
-double GreatestExtended(const Scene& scene)
-{
-  double greatest = 0.0;
-  for (const Light& light : scene.Lights)
-  {
-    if (light.Enabled && light.Type == LightType::Area)
-    {
-      greatest = std::max(greatest, Greatest(light.Intensity));
-    }
-  }
-  return greatest;
-}
-
-} // namespace
 
 const char* EffectName(Effect effect)
 {
   static const char* const names[EffectCount] = { "Occlusion", "Interreflection",
     "SpecularTransport", "Transmission", "BackFaces", "Emission", "Environment", "SpotShape",
-    "Attenuation" };
+    "Attenuation", "PointLights", "SpotLights", "DirectionalLights", "AreaLights", "CandelaWebs",
+    "GlobalAmbient", "Mirrors", "SpectralBands", "PointSampling", "Discretisation", "Specular",
+    "TwoSided", "LocalViewer", "Translucency" };
   return names[static_cast<int>(effect)];
 }
 
-EffectPlan::EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,
-  const EffectAbilities& abilities, bool freePoints)
-  : Decisions(EffectCount)
-  , Indirect(abilities.Interreflection)
-  , Paths(abilities.Paths)
+EffectPlan::EffectPlan(const std::vector<EffectSwitch>& switches, std::string unit)
+  : Rows(EffectCount)
+  , Unit(std::move(unit))
 {
-  const Materials& optics = scene.Optics;
-  const Convexity convexity = FindConvexity(scene);
-  const bool twoSided = AnyOn(optics.TwoSided);
-
-  const auto decide = [&](Effect effect, bool present, bool able, const std::string& whyAbsent,
-                        const std::string& whyPresent) {
-    EffectDecision& d = (*this)[effect];
-    const EffectSwitch wish = switches[static_cast<int>(effect)];
-    d.Present = present;
-    d.Simulated = able && wish != EffectSwitch::Off && (present || wish == EffectSwitch::On);
-    if (!present)
-    {
-      d.Why = d.Simulated ? "switched on; " + whyAbsent : whyAbsent;
-    }
-    else if (!able)
-    {
-      d.Why = whyPresent + "; not simulated by this filter";
-    }
-    else
-    {
-      d.Why = wish == EffectSwitch::Off ? "switched off; " + whyPresent : whyPresent;
-    }
-  };
-
-  bool spots = false;
-  bool legacy = false;
-  bool environment = false;
-  bool any = false;
-  for (const Light& light : scene.Lights)
+  for (std::size_t k = 0; k < std::min(switches.size(), this->Rows.size()); ++k)
   {
-    if (light.Enabled)
-    {
-      any = true;
-      spots = spots || light.Type == LightType::Spot;
-      legacy = legacy ||
-        (light.Type != LightType::Directional && light.Type != LightType::Environment &&
-          !light.InverseSquare());
-      environment = environment || light.Type == LightType::Environment;
-    }
+    this->Rows[k].Wish = switches[k];
   }
-  const double emitted = Greatest(optics.EmittedExitance);
-  const double reflectance = Greatest(optics.DiffuseReflectance);
-  const double specular = Greatest(optics.SpecularReflectance);
-  const double transmitted = GreatestTransmittance(scene);
-  const double diffused = Greatest(optics.DiffuseTransmittance);
-  const bool lit = any || emitted > 0.0 || Greatest(scene.GlobalAmbient) > 0.0;
-
-  const bool backs = twoSided || diffused > 0.0; // receive light
-  const bool shadowless = !backs && !(freePoints && !scene.Triangles.empty()) &&
-    (convexity == Convexity::Body || (convexity == Convexity::Room && LightsInside(scene)));
-  decide(Effect::Occlusion, (any || emitted > 0.0) && !shadowless && !scene.Triangles.empty(), true,
-    scene.Triangles.empty() || (!any && emitted <= 0.0)
-      ? (scene.Triangles.empty() ? "there is no surface" : "no light is on")
-      : (convexity == Convexity::Body ? "the surface is a convex body: no face hides a light from another"
-                                      : "a convex room with its lights inside: nothing stands between"),
-    "surfaces may stand between a light and a cell");
-  decide(Effect::Interreflection,
-    (reflectance > 0.0 || diffused > 0.0) && (convexity != Convexity::Body || backs) && lit,
-    abilities.Interreflection,
-    reflectance <= 0.0 && diffused <= 0.0 ? "no surface reflects diffusely"
-                       : (lit ? "no front faces another" : "no light is on"),
-    "surfaces face each other and reflect up to " + std::to_string(reflectance) +
-      (diffused > 0.0 ? ", let through diffusely up to " + std::to_string(diffused) : ""));
-  const bool facing = convexity != Convexity::Body || backs || freePoints;
-  const std::string noPaths = abilities.NoPaths.empty() ? "" : " (" + abilities.NoPaths + ")";
-  decide(Effect::SpecularTransport, specular > 0.0 && facing && lit, abilities.Paths,
-    specular <= 0.0 ? "no surface reflects specularly"
-                    : (lit ? "nothing faces the surfaces that reflect specularly" : "no light is on"),
-    "surfaces reflect specularly up to " + std::to_string(specular) +
-      (abilities.Paths ? ": light is followed over them" : noPaths));
-  EffectDecision& mirrors = (*this)[Effect::SpecularTransport];
-  const double lost = 1.0 - reflectance - specular - transmitted - diffused;
-  if (mirrors.Simulated && specular <= 0.1 * abilities.Tolerance * lost &&
-    switches[static_cast<int>(Effect::SpecularTransport)] == EffectSwitch::Auto)
-  {
-    mirrors.Simulated = false;
-    mirrors.Why = "surfaces reflect specularly up to " + std::to_string(specular) +
-      " only: less than a tenth of the tolerance";
-  }
-  this->Panes = transmitted > 0.0 && (*this)[Effect::Occlusion].Present;
-  const std::string through = diffused > 0.0
-    ? "cells let up to " + std::to_string(diffused) + " of the light through diffusely" +
-      (this->Indirect ? "" : " (direct light alone does not follow it: bound given)")
-    : "";
-  const std::string follows = !this->Indirect
-    ? " of the direct light through"
-    : (abilities.Paths ? " of the direct light and of what surfaces send or reflect through"
-                       : " of the direct light through; what surfaces send or reflect does not pass "
-                         "them (bound given)" + noPaths);
-  const std::string straight =
-    this->Panes ? "panes let up to " + std::to_string(transmitted) + follows : "";
-  decide(Effect::Transmission, this->Panes || diffused > 0.0, abilities.Transmission,
-    transmitted > 0.0 ? "nothing stands between a light and a cell" : "every surface is opaque",
-    straight + (this->Panes && diffused > 0.0 ? "; " : "") + through);
-  decide(Effect::BackFaces, twoSided, true, "no surface is two-sided",
-    "two-sided surfaces receive on their backs");
-  decide(Effect::Emission, emitted > 0.0, abilities.Emission, "no surface emits",
-    "surfaces emit light of their own");
-  decide(Effect::Environment, environment, abilities.Environment, "there is no environment light",
-    "there is an environment light");
-  decide(Effect::SpotShape, spots, true, "there is no spot light",
-    "spot lights have a cone or an exponent");
-  decide(Effect::Attenuation, legacy, true, "all lights obey the inverse square law",
-    "lights carry a legacy attenuation a + b r + c r^2 other than r^2");
 }
 
-bool EffectPlan::CallsForPaths() const
+void EffectPlan::Decide(Effect effect, bool present, bool able, const std::string& whyAbsent,
+  const std::string& whyPresent)
 {
-  return this->Paths &&
-    (this->Simulates(Effect::SpecularTransport) || this->PassesPanes());
+  EffectDecision& d = (*this)[effect];
+  d.Known = true;
+  d.Present = present;
+  d.Able = able;
+  d.Simulated = able && d.Wish != EffectSwitch::Off && (present || d.Wish == EffectSwitch::On);
+  if (!present)
+  {
+    d.Why = d.Simulated ? "switched on; " + whyAbsent : whyAbsent;
+  }
+  else if (!able)
+  {
+    d.Why = whyPresent + "; not simulated by this filter";
+  }
+  else
+  {
+    d.Why = d.Wish == EffectSwitch::Off ? "switched off; " + whyPresent : whyPresent;
+  }
+}
+
+bool EffectPlan::Drop(Effect effect, double bound, double allowed)
+{
+  EffectDecision& d = (*this)[effect];
+  if (!d.Simulated || !d.Present || d.Wish != EffectSwitch::Auto ||
+    !(this->DroppedBound() + bound <= allowed))
+  {
+    return false;
+  }
+  d.Simulated = false;
+  d.Dropped = true;
+  d.Bound = bound;
+  d.Why += "; it cannot matter beside the tolerance";
+  return true;
+}
+
+double EffectPlan::DroppedBound() const
+{
+  double sum = 0.0;
+  for (const EffectDecision& d : this->Rows)
+  {
+    sum += d.Dropped ? d.Bound : 0.0;
+  }
+  return sum;
 }
 
 bool EffectPlan::LeavesOut() const
 {
-  return (*this)[Effect::Transmission].Present ||
-    std::any_of(this->Decisions.begin(), this->Decisions.end(),
-      [](const EffectDecision& d) { return d.Present && !d.Simulated; });
+  return std::any_of(this->Rows.begin(), this->Rows.end(),
+    [](const EffectDecision& d) { return d.Present && !d.Simulated; });
 }
 
-void EffectPlan::Bound(
-  const Scene& scene, double peak, double peakBack, double spot, double attenuation, double sky)
+std::string EffectPlan::Explain(Effect effect) const
 {
-  const double infinite = std::numeric_limits<double>::infinity();
-  const Materials& optics = scene.Optics;
-  const double emitted = Greatest(optics.EmittedExitance);
-  const double specular = Greatest(optics.SpecularReflectance);
-  const double transmitted = GreatestTransmittance(scene);
-  const double ambient = Greatest(scene.GlobalAmbient);
-  const double diffuse = Greatest(optics.DiffuseReflectance);
-  const double diffused = Greatest(optics.DiffuseTransmittance);
-  const double reflectance = diffuse + specular + transmitted + diffused;
-  // No point gets more than all that any surface sends, were it all around it: E0/(1 - rho).
-  const double direct = std::max(peak, peakBack);
-  const double sent = (direct + ambient) * reflectance + emitted;
-  const double indirect = reflectance < 1.0 ? sent / (1.0 - reflectance) : infinite;
-  const auto orNothing = [](double factor, double value) { return factor > 0.0 ? value : 0.0; };
-
-  // Through panes: what comes straight; then all that any surface sends, and what that adds by
-  // reflection.
-  const double passing = this->Indirect && !this->Paths
-    ? orNothing(transmitted,
-        reflectance < 1.0 ? transmitted * indirect / (1.0 - diffuse - diffused) : infinite)
-    : 0.0;
-  // What cells that diffuse send on, and what that adds by reflection.
-  const double spread = orNothing(diffused,
-    reflectance < 1.0 ? diffused * (direct + ambient + indirect) / (1.0 - reflectance) : infinite);
-
-  // Over mirrors the radiance of extended sources stays what it is; that of points may be gathered.
-  double specularBound = 0.0;
-  const EffectDecision& mirrors = (*this)[Effect::SpecularTransport];
-  if (mirrors.Present && !mirrors.Simulated)
+  const EffectDecision& d = (*this)[effect];
+  std::ostringstream text;
+  text << EffectName(effect) << (d.Simulated ? " is simulated: " : (d.Present ? " is left out: " : " is not needed: "))
+       << d.Why;
+  if (!d.Simulated && d.Present)
   {
-    double smallest = 0.0;
-    const double flux = SpecularFlux(scene, sky, smallest);
-    const double extended =
-      specular * (GreatestExtended(scene) + ambient + indirect + emitted);
-    specularBound = reflectance < 1.0
-      ? (extended + orNothing(flux, flux / smallest)) / (1.0 - reflectance)
-      : orNothing(extended + flux, infinite);
+    if (std::isfinite(d.Bound))
+    {
+      text << "; that changes no value by more than " << d.Bound << ' ' << this->Unit;
+    }
+    else
+    {
+      text << "; what that changes cannot be bounded";
+    }
   }
+  text << '.';
+  return text.str();
+}
 
-  const double bounds[EffectCount] = {
-    peak + emitted,                                                          // Occlusion
-    reflectance < 1.0 ? (peak + ambient + emitted) * reflectance / (1.0 - reflectance)
-                      : orNothing(peak + ambient + emitted, infinite),       // Interreflection
-    specularBound,                                                           // SpecularTransport
-    orNothing(transmitted, transmitted * (direct + emitted) + passing) + spread, // Transmission
-    peakBack,                                                                // BackFaces
-    orNothing(emitted, reflectance < 1.0 ? emitted / (1.0 - reflectance) : infinite), // Emission
-    orNothing(sky, reflectance < 1.0 ? sky / (1.0 - reflectance) : infinite), // Environment
-    spot,                                                                    // SpotShape
-    attenuation                                                              // Attenuation
-  };
+std::string EffectPlan::Explain() const
+{
+  std::string text;
   for (int k = 0; k < EffectCount; ++k)
   {
-    EffectDecision& d = this->Decisions[k];
-    d.Bound = d.Present && !d.Simulated ? bounds[k] : 0.0;
+    if (this->Rows[static_cast<std::size_t>(k)].Known)
+    {
+      text += this->Explain(static_cast<Effect>(k)) + '\n';
+    }
   }
-  EffectDecision& panes = (*this)[Effect::Transmission];
-  if (panes.Present && panes.Simulated)
-  {
-    panes.Bound = passing + (this->Indirect ? 0.0 : spread);
-  }
+  return text;
 }
 
 } // namespace radiometry

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "radiometry/scene/Scene.h"
-
 #include <string>
 #include <vector>
 
@@ -17,7 +15,7 @@ enum class EffectSwitch
   Off = 2
 };
 
-/// The effects that a simulation may carry or leave out.
+/// The effects that a simulation or a picture may carry or leave out.
 enum class Effect
 {
   Occlusion,
@@ -28,82 +26,85 @@ enum class Effect
   Emission,
   Environment,
   SpotShape,
-  Attenuation
+  Attenuation,
+  PointLights,
+  SpotLights,
+  DirectionalLights,
+  AreaLights,
+  CandelaWebs,
+  GlobalAmbient,
+  Mirrors,        // surfaces that reflect specularly without a lobe
+  SpectralBands,  // bands that are computed one by one
+  PointSampling,  // values at points instead of averages over cells
+  Discretisation, // elements finer than the cells
+  Specular,       // highlights of a picture
+  TwoSided,       // lighting of both sides in a picture
+  LocalViewer,
+  Translucency
 };
-inline constexpr int EffectCount = 9;
+inline constexpr int EffectCount = 23;
+/// The word of an effect in tables: that of its switch.
 const char* EffectName(Effect effect);
 
 /// One row of the EffectPlan table.
 struct EffectDecision
 {
+  bool Known = false;     // the computation at hand has the effect at all: a row of its table
+  bool Present = false;   // the scene calls for it
+  bool Able = false;      // the computation can simulate it
   bool Simulated = false;
-  bool Present = false;  // the scene calls for it
+  bool Dropped = false;   // Auto left it out though it is present: its bound is small enough
+  EffectSwitch Wish = EffectSwitch::Auto;
   std::string Why;
-  double Bound = 0.0;    // greatest change of any irradiance value that leaving it out can make,
-                         // W/m^2, in any band; infinite where none can be given; 0 when simulated
-                         // (Transmission: what is left out of it, where that is the indirect light)
-  double Seconds = 0.0;  // spent on it
+  double Bound = 0.0;   // greatest change of any value that leaving it out can make, in any band, in
+                        // the plan's unit; infinite where none can be given; 0 when simulated
+                        // (Transmission: what is left out of it, where that is the indirect light)
+  double Seconds = 0.0; // spent on it
 };
 
-/// What the filter at hand can do at all.
-struct EffectAbilities
-{
-  bool Interreflection = false; // false for direct light alone
-  bool Emission = false;
-  bool Transmission = false; // of direct light
-  bool Environment = false;
-  /// Rays that go on over mirrors and through panes: specular transport, and panes for what surfaces
-  /// send.
-  bool Paths = false;
-  std::string NoPaths;  // why not, in words
-  double Tolerance = 0.0; // relative: what specular reflection cannot change by that is left out
-};
-
-/// Decides, effect by effect, what the scene calls for, before anything is simulated.
-///   Occlusion      not needed when no triangle can hide a light from another: a convex body seen
-///                  from outside, a convex room with its lights inside
-///   Interreflection not needed when no front faces another, or nothing reflects
-///   SpotShape      not needed when there is no spot; Attenuation: when all lights obey 1/r^2
-///   BackFaces, Emission, SpecularTransport, Transmission: when no material asks for them
+/// What a computation carries and what it leaves out, effect by effect, decided before it begins:
+/// of both simulating filters (SceneEffects.h) and of the picture.
 class EffectPlan
 {
 public:
-  /// `freePoints`: values are wanted off the surface too, where even a convex body hides lights.
-  EffectPlan(const Scene& scene, const std::vector<EffectSwitch>& switches,
-    const EffectAbilities& abilities, bool freePoints = false);
+  /// `switches` by Effect; those that are missing are Auto.
+  explicit EffectPlan(const std::vector<EffectSwitch>& switches = {}, std::string unit = "W/m^2");
 
   const EffectDecision& operator[](Effect effect) const
   {
-    return this->Decisions[static_cast<int>(effect)];
+    return this->Rows[static_cast<std::size_t>(effect)];
   }
-  EffectDecision& operator[](Effect effect) { return this->Decisions[static_cast<int>(effect)]; }
+  EffectDecision& operator[](Effect effect) { return this->Rows[static_cast<std::size_t>(effect)]; }
   bool Simulates(Effect effect) const { return (*this)[effect].Simulated; }
 
-  /// True when light has to be followed over mirrors or through panes on its way from surface to
-  /// surface: the MonteCarlo method alone does that.
-  bool CallsForPaths() const;
-  /// True when light passes panes that stand between something.
-  bool PassesPanes() const { return this->Panes && this->Simulates(Effect::Transmission); }
+  /// Simulated where it is wanted: present and not Off, or On; and where it can be.
+  void Decide(Effect effect, bool present, bool able, const std::string& whyAbsent,
+    const std::string& whyPresent);
 
-  /// True when something has to be bounded.
+  /// Auto: leaves a present effect out where its bound and those of the effects dropped before it
+  /// stay within `allowed` together. True where it did.
+  bool Drop(Effect effect, double bound, double allowed);
+  /// What all effects that were dropped may change of any value, together.
+  double DroppedBound() const;
+
+  /// True when an effect is present and not simulated: something has to be bounded.
+  bool LeavesOut(Effect effect) const
+  {
+    return (*this)[effect].Present && !(*this)[effect].Simulated;
+  }
   bool LeavesOut() const;
 
-  /// Gives each effect that the scene has and the run left out its bound.
-  /// `peak`: the greatest irradiance by direct light that any cell could get, nothing in the way
-  /// (W/m^2, strongest band); `peakBack` the same of back faces; `spot` and `attenuation` the
-  /// greatest change of a cell's unshadowed irradiance by those effects.
-  /// `sky`: the greatest irradiance that environment lights can give.
-  ///   Specular  of any cell's average: what mirrors may send on of the radiance of surfaces, panels
-  ///             and skies, all around; and all that they get from point-like and directional lights
-  ///             brought to one cell, for a hollow mirror may do that
-  void Bound(const Scene& scene, double peak, double peakBack, double spot, double attenuation,
-    double sky = 0.0);
+  /// In a sentence, why the effect was kept or left out, and what that may change.
+  std::string Explain(Effect effect) const;
+  /// A sentence for each effect that is known, line by line.
+  std::string Explain() const;
+
+  const std::vector<EffectDecision>& Decisions() const { return this->Rows; }
+  const std::string& BoundUnit() const { return this->Unit; }
 
 private:
-  std::vector<EffectDecision> Decisions;
-  bool Indirect; // the run follows light from surface to surface
-  bool Paths;    // ... over mirrors and through panes
-  bool Panes = false; // that stand between something
+  std::vector<EffectDecision> Rows;
+  std::string Unit;
 };
 
 } // namespace radiometry

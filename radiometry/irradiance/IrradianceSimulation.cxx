@@ -88,16 +88,15 @@ FieldValues AverageOver(std::size_t count, int bandCount, const std::vector<Patc
 }
 
 void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
-  EffectPlan& plan, const Communicator* ranks)
+  SceneEffects& effects, const Communicator* ranks)
 {
-  const auto leftOut = [&](Effect effect) {
-    return plan[effect].Present && !plan.Simulates(effect);
-  };
+  const EffectPlan& plan = effects.Plan();
+  const auto leftOut = [&](Effect effect) { return plan.LeavesOut(effect); };
   DirectOptions bare;
   bare.Occlusion = false;
   bare.Threads = threads;
   bare.Ranks = ranks;
-  if (plan.LeavesOut() && peak < 0.0)
+  if ((plan.LeavesOut() || plan[Effect::Transmission].Present) && peak < 0.0)
   {
     peak = ComputeDirectIrradiance(scene, occluders, MakePatches(scene, 0), bare).PeakUnshadowed;
   }
@@ -129,17 +128,17 @@ void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double pe
   const double sky = leftOut(Effect::Environment) || leftOut(Effect::SpecularTransport)
     ? GreatestSkyIrradiance(scene)
     : 0.0;
-  plan.Bound(scene, peak, peakBack, spot, attenuation, sky);
+  effects.Bound(peak, peakBack, spot, attenuation, sky);
 }
 
-IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<SurfacePoint>& points,
+IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<SurfacePoint>& points,
   const IrradianceOptions& options, Monitor* monitor)
 {
   IrradianceResult result;
   Report(monitor, 0.0, "planning");
   if (options.LightVisibility)
   {
-    CheckLightVisibility(scene);
+    CheckLightVisibility(given);
   }
   const bool freePoints = std::any_of(
     points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
@@ -147,7 +146,11 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
   abilities.Emission = true;
   abilities.Environment = true;
   abilities.Transmission = true;
-  EffectPlan plan(scene, options.Switches, abilities, freePoints);
+  abilities.RelativeTolerance = options.RelativeTolerance;
+  abilities.AbsoluteTolerance = options.AbsoluteTolerance;
+  SceneEffects effects(given, options.Switches, abilities, freePoints);
+  EffectPlan& plan = effects.Plan();
+  const Scene& scene = effects.Simulated();
   const OcclusionScene occluders(scene);
 
   DirectOptions direct;
@@ -252,11 +255,18 @@ IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<Surfac
       "; " + std::to_string(rays) + " rays for " + std::to_string(values) + " cells and points";
   }
 
-  BoundLeftOut(scene, occluders, peak, options.Threads, plan, options.Ranks);
-  for (int k = 0; k < EffectCount; ++k)
+  for (int side = 0; side < 2; ++side)
   {
-    result.Effects.push_back(plan[static_cast<Effect>(k)]);
+    for (FieldValues* values : { &result.Cells[side], &result.Points[side] })
+    {
+      values->Values = effects.AllBands(std::move(values->Values));
+      values->Errors = effects.AllBands(std::move(values->Errors));
+    }
   }
+  BoundLeftOut(given, occluders, peak, options.Threads, effects, options.Ranks);
+  result.Effects = plan.Decisions();
+  result.Cost.Seconds = result.Convergence.Elapsed();
+  result.Cost.Samples = rays;
   result.Outcome = timedOut ? "the time budget ended the run before every value met its tolerance"
                             : "every value met its tolerance or is as fine as can be";
   if (result.Pieces.TimedOut)

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
-#include "radiometry/effects/EffectPlan.h"
+#include "radiometry/accuracy/RunCost.h"
+#include "radiometry/effects/SceneEffects.h"
 #include "radiometry/irradiance/DirectIrradiance.h"
 #include "radiometry/irradiance/LightVisibility.h"
 #include "radiometry/irradiance/ShadowPieces.h"
@@ -26,6 +27,7 @@ struct IrradianceOptions
   bool RefineShadowBoundaries = false; // over the pieces into which shadows' edges cut the cells
   std::size_t PiecesPerCell = 1000;    // at most
   bool LightVisibility = false;        // how much of each light arrives, too
+  bool PilotOnly = false; // end where the cost of the run is known: Cost.PredictedSeconds
   std::vector<EffectSwitch> Switches = std::vector<EffectSwitch>(EffectCount);
   const Communicator* Ranks = nullptr; // that share the work; null: this process alone
 };
@@ -45,6 +47,7 @@ struct IrradianceResult
   std::vector<EffectDecision> Effects;
   ConvergenceRecord Convergence;
   std::string Outcome; // what ended the run
+  RunCost Cost;
   double DroppedPeak = 0.0; // greatest bound on weak lights that a value left out: part of its error,
   double DroppedMean = 0.0; // and the mean over the values, W/m^2
   ShadowPieces Pieces; // empty unless shadows' edges were refined
@@ -70,6 +73,6 @@ FieldValues AverageOver(std::size_t count, int bands, const std::vector<Patch>& 
 /// not known). What only the effects left out need is computed here, without a ray; by `ranks`
 /// together where there are several.
 void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
-  EffectPlan& plan, const Communicator* ranks = nullptr);
+  SceneEffects& effects, const Communicator* ranks = nullptr);
 
 } // namespace radiometry

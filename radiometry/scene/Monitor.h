@@ -16,6 +16,8 @@ public:
   virtual ~Monitor() = default;
   /// `fraction` of the whole run in [0, 1] and the stage's name. Returns false to ask for a stop.
   virtual bool Progress(double fraction, const char* stage) = 0;
+  /// The whole run is expected to take that many seconds; said once, before they are spent.
+  virtual void Predicted(double /*seconds*/) {}
 };
 
 /// Report and stop when asked to: throws Aborted. A null monitor is silent and never stops.

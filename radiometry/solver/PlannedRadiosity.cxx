@@ -116,14 +116,14 @@ void Complete(FieldValues& field, const char* where)
 
 } // namespace
 
-PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
+PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   const std::vector<SurfacePoint>& points, bool cells, const std::vector<EffectSwitch>& switches,
   RadiosityOptions options, Monitor* monitor, RadiosityCache* cache)
 {
   Report(monitor, 0.0, "planning");
   if (options.LightVisibility)
   {
-    CheckLightVisibility(scene);
+    CheckLightVisibility(given);
   }
   const ConvergenceRecord clock;
   EffectAbilities abilities;
@@ -131,7 +131,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   abilities.Emission = true;
   abilities.Environment = true;
   abilities.Transmission = true;
-  abilities.Tolerance = options.RelativeTolerance;
+  abilities.RelativeTolerance = options.RelativeTolerance;
+  abilities.AbsoluteTolerance = options.AbsoluteTolerance;
   const bool rays =
     options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo;
   const bool unoccluded = switches[static_cast<int>(Effect::Occlusion)] == EffectSwitch::Off;
@@ -141,7 +142,9 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
                             : "";
   const bool freePoints =
     std::any_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
-  EffectPlan plan(scene, switches, abilities, freePoints);
+  SceneEffects effects(given, switches, abilities, freePoints);
+  EffectPlan& plan = effects.Plan();
+  const Scene& scene = effects.Simulated();
   options.Interreflection = plan.Simulates(Effect::Interreflection);
   // Where nothing can stand between, rays may still be traced: they are how Monte Carlo exchanges.
   options.Occlusion = plan.Simulates(Effect::Occlusion) || !plan[Effect::Occlusion].Present;
@@ -152,7 +155,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   options.Environment = plan.Simulates(Effect::Environment);
   options.Transmission = plan.Simulates(Effect::Transmission);
   options.SpecularTransport = plan.Simulates(Effect::SpecularTransport);
-  options.PathTransmission = abilities.Paths && plan.PassesPanes();
+  options.PathTransmission = abilities.Paths && effects.PassesPanes();
 
   PlannedRadiosity out;
   RadiosityCache own;
@@ -211,11 +214,20 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& scene,
   {
     plan[stage == "direct light" ? Effect::Occlusion : Effect::Interreflection].Seconds += seconds;
   }
-  BoundLeftOut(scene, occluders, -1.0, options.Threads, plan, options.Ranks);
-  for (int k = 0; k < EffectCount; ++k)
+  for (int side = 0; side < 2; ++side)
   {
-    out.Effects.push_back(plan[static_cast<Effect>(k)]);
+    for (FieldValues* values : { &out.Cells.Irradiance[side], &out.Cells.Radiosity[side],
+           &out.PointIrradiance[side], &out.PointRadiosity[side] })
+    {
+      values->Values = effects.AllBands(std::move(values->Values));
+      values->Errors = effects.AllBands(std::move(values->Errors));
+    }
   }
+  BoundLeftOut(given, occluders, -1.0, options.Threads, effects, options.Ranks);
+  out.Effects = plan.Decisions();
+  out.Cost.Seconds = clock.Elapsed();
+  out.Cost.Samples = out.Cells.Samples;
+  out.Cost.Bytes = out.Cells.OperatorBytes;
   Report(monitor, 1.0, "done");
   return out;
 }

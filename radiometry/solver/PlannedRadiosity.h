@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "radiometry/effects/EffectPlan.h"
+#include "radiometry/accuracy/RunCost.h"
+#include "radiometry/effects/SceneEffects.h"
 #include "radiometry/irradiance/LightVisibility.h"
 #include "radiometry/solver/RadiosityCache.h"
 #include "radiometry/solver/RadiositySimulation.h"
@@ -19,6 +20,7 @@ struct PlannedRadiosity
   std::array<FieldValues, 2> PointIrradiance; // front, back; as the points that were asked for
   std::array<FieldValues, 2> PointRadiosity;
   std::vector<EffectDecision> Effects; // by Effect
+  RunCost Cost;
   std::array<LightShares, 2> CellVisibility; // empty unless asked for
   std::array<LightShares, 2> PointVisibility;
 };

@@ -60,6 +60,7 @@ struct RadiosityOptions
   bool SpecularTransport = false; // light over mirrors is followed
   bool PathTransmission = false;  // what surfaces send is followed through panes
   bool LightVisibility = false;   // how much of each light arrives is wanted, too
+  bool PilotOnly = false; // end where the cost of the run is known (RunCost::PredictedSeconds)
   int Threads = 0; // 0: all
   std::uint64_t Seed = 0;
   const Communicator* Ranks = nullptr; // that compute together; null: this process alone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/effects/EffectPlan.h"
+#include "radiometry/effects/SceneEffects.h"
 
 #include "radiometry/irradiance/IrradianceSimulation.h"
 #include "radiometry/visibility/Convexity.h"
@@ -38,7 +38,8 @@ TEST(EffectPlan, ConvexBodyNeitherShadowsNorLightsItself)
   EXPECT_EQ(FindConvexity(scene), Convexity::Body);
   EffectAbilities all;
   all.Interreflection = true;
-  const EffectPlan plan(scene, Auto, all);
+  const SceneEffects effects(scene, Auto, all);
+  const EffectPlan& plan = effects.Plan();
   EXPECT_FALSE(plan.Simulates(Effect::Occlusion));
   EXPECT_FALSE(plan.Simulates(Effect::Interreflection));
   // Leaving the shadows out changes no value at all.
@@ -58,14 +59,14 @@ TEST(EffectPlan, ConvexRoomNeedsNoShadowsForLightsInsideOnly)
   Scene scene = mesh.ToScene();
   EXPECT_EQ(FindConvexity(scene), Convexity::Room);
   scene.Lights = { MakePoint(scene, { 1, 2, 3 }) };
-  EXPECT_FALSE(EffectPlan(scene, Auto, {}).Simulates(Effect::Occlusion));
-  EXPECT_TRUE(EffectPlan(scene, Auto, {})[Effect::Interreflection].Present);
+  EXPECT_FALSE(SceneEffects(scene, Auto, {}).Plan().Simulates(Effect::Occlusion));
+  EXPECT_TRUE(SceneEffects(scene, Auto, {}).Plan()[Effect::Interreflection].Present);
   scene.Lights = { MakePoint(scene, { 5, 2, 3 }) };
-  EXPECT_TRUE(EffectPlan(scene, Auto, {}).Simulates(Effect::Occlusion));
+  EXPECT_TRUE(SceneEffects(scene, Auto, {}).Plan().Simulates(Effect::Occlusion));
   scene.Lights[0].Type = LightType::Directional;
-  EXPECT_TRUE(EffectPlan(scene, Auto, {}).Simulates(Effect::Occlusion));
+  EXPECT_TRUE(SceneEffects(scene, Auto, {}).Plan().Simulates(Effect::Occlusion));
   scene.Lights[0].Enabled = false;
-  EXPECT_FALSE(EffectPlan(scene, Auto, {}).Simulates(Effect::Occlusion));
+  EXPECT_FALSE(SceneEffects(scene, Auto, {}).Plan().Simulates(Effect::Occlusion));
 }
 
 TEST(EffectPlan, TwoBodiesAreGeneral)
@@ -111,11 +112,13 @@ TEST(EffectPlan, OffLeavesOutAndBoundsAndOnForces)
 
 TEST(EffectPlan, EmptySceneIsPlannedToo)
 {
-  const EffectPlan plan(Scene{}, Auto, {});
+  const Scene empty;
+  const SceneEffects effects(empty, Auto, {});
+  const EffectPlan& plan = effects.Plan();
   for (int k = 0; k < EffectCount; ++k)
   {
     EXPECT_FALSE(plan.Simulates(static_cast<Effect>(k)));
-    EXPECT_FALSE(plan[static_cast<Effect>(k)].Why.empty());
+    EXPECT_EQ(plan[static_cast<Effect>(k)].Why.empty(), !plan[static_cast<Effect>(k)].Known);
   }
 }
 

@@ -67,8 +67,8 @@ def judge(path, name):
             return "rendering/ never includes filters/"
         if name.startswith("radiometry/") and not name.startswith(
             ("radiometry/scene/", "radiometry/shading/", "radiometry/imaging/")
-        ):
-            return "rendering/ uses the core's scene, shading and imaging headers only"
+        ) and name != "radiometry/effects/EffectPlan.h":
+            return "rendering/ uses the core's scene, shading and imaging headers and its EffectPlan only"
         if name.startswith("io/") and not name.startswith("io/Exr") and name != "io/FileError.h":
             return "rendering/ uses of io/ the image files only"
         return None
