@@ -76,6 +76,23 @@ void AddRow(Result& result, radiometry::Effect effect, bool present, bool simula
   row.Bound = row.Present && !row.Simulated ? bound : 0.0;
 }
 
+/// Of a part of the run, whose prediction is not that of the run.
+class WithoutPrediction : public radiometry::Monitor
+{
+public:
+  explicit WithoutPrediction(radiometry::Monitor* whole)
+    : Whole(whole)
+  {
+  }
+  bool Progress(double fraction, const char* stage) override
+  {
+    return !this->Whole || this->Whole->Progress(0.6 * fraction, stage);
+  }
+
+private:
+  radiometry::Monitor* Whole;
+};
+
 bool AnyPositive(const std::vector<double>& values)
 {
   return std::any_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
@@ -271,6 +288,8 @@ void vtkRadianceFilter::Simulate(Job& job, Result& result)
   const Looking looking = this->FindViewer(job);
   const radiometry::Viewer& viewer = looking.Viewer;
 
+  const radiometry::ConvergenceRecord clock;
+  WithoutPrediction quiet(job.Progress);
   // Diffuse light: as the surface brings it, or direct light computed here.
   SurfaceLight light = ReadSurfaceLight(job);
   const auto on = [&](radiometry::Effect effect) {
@@ -288,14 +307,14 @@ void vtkRadianceFilter::Simulate(Job& job, Result& result)
     radiometry::IrradianceOptions options;
     options.RelativeTolerance = this->RelativeTolerance;
     options.AbsoluteTolerance = this->AbsoluteTolerance * radiometry::units::Pi;
-    options.TimeBudget = this->TimeBudget;
+    options.TimeBudget = job.TimeBudget;
     options.Threads = job.Threads;
     options.Ranks = job.Ranks;
     options.Switches = job.Switches;
     const auto points =
       job.WantCells ? std::vector<radiometry::SurfacePoint>() : job.Points;
     radiometry::IrradianceResult direct =
-      radiometry::SimulateIrradiance(scene, points, options, job.Progress);
+      radiometry::SimulateIrradiance(scene, points, options, &quiet);
     light.Cells = std::move(direct.Cells);
     light.Points = std::move(direct.Points);
     result.Convergence = std::move(direct.Convergence);
@@ -319,9 +338,11 @@ void vtkRadianceFilter::Simulate(Job& job, Result& result)
   options.RelativeTolerance = this->RelativeTolerance;
   options.AbsoluteTolerance = this->AbsoluteTolerance;
   options.Threads = job.Threads;
-  options.SecondsLeft = this->TimeBudget > 0.0
-    ? std::max(1e-9, this->TimeBudget - result.Convergence.Elapsed())
+  options.SecondsBefore = clock.Elapsed();
+  options.SecondsLeft = job.TimeBudget > 0.0
+    ? std::max(1e-9, job.TimeBudget - options.SecondsBefore)
     : 0.0;
+  options.PilotOnly = job.PilotOnly;
   options.Effects.Occlusion = on(radiometry::Effect::Occlusion);
   options.Effects.Specular = on(radiometry::Effect::SpecularTransport);
   options.Effects.Transmission = on(radiometry::Effect::Transmission);
@@ -396,6 +417,7 @@ void vtkRadianceFilter::Simulate(Job& job, Result& result)
   result.Active = names::Radiance;
   result.BoundUnit = "W/(m^2 sr)";
   result.Method = method;
+  result.Cost = radiance.Cost;
   result.Outcome = radiance.TimedOut
     ? "the time budget ended the run before every value met its tolerance"
     : "every value met its tolerance or is as fine as can be";

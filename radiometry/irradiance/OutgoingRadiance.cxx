@@ -19,6 +19,7 @@ constexpr double Pi = 3.14159265358979323846;
 constexpr std::size_t Sets = 8;
 constexpr std::uint32_t FewestSamples = 8; // of a set
 constexpr std::uint32_t MostSamples = 2048;
+constexpr std::size_t PilotStride = 32; // of the receivers that are computed first, to know the cost
 /// Student's t of seven degrees of freedom, 95 % on both sides, is 2.365; a fifth more as samples end when
 /// they happen to agree.
 constexpr double Deviations = 2.85;
@@ -241,29 +242,32 @@ void SampleAll(const std::vector<Receiver>& receivers, const RadianceTracer& tra
   const Sampler sampler(tracer, viewer, options, bands, lights);
   std::atomic<std::int64_t> rays{ 0 };
   std::atomic<bool> expired{ false };
-  const auto run = [&](std::uint32_t most, double begin, double end, bool first) {
+  const auto run = [&](const std::vector<std::size_t>& some, std::uint32_t most, double begin,
+                     double end, bool first) {
     StageProgress part = stage;
     part.Begin = stage.Begin + (stage.End - stage.Begin) * begin;
     part.End = stage.Begin + (stage.End - stage.Begin) * end;
     ParallelFor(
-      calling.size(), options.Threads, part,
+      some.size(), options.Threads, part,
       [&](std::size_t k) {
         if (!first && options.SecondsLeft > 0.0 && clock.Elapsed() > options.SecondsLeft)
         {
           expired = true;
           return;
         }
-        const std::size_t row = calling[k] * bands;
+        const std::size_t row = some[k] * bands;
         std::vector<double> value(values.begin() + static_cast<std::ptrdiff_t>(row),
           values.begin() + static_cast<std::ptrdiff_t>(row + bands));
         std::vector<double> error(errors.begin() + static_cast<std::ptrdiff_t>(row),
           errors.begin() + static_cast<std::ptrdiff_t>(row + bands));
-        rays += sampler.Add(receivers[calling[k]], most, value.data(), error.data());
+        rays += sampler.Add(receivers[some[k]], most, value.data(), error.data());
         std::copy(value.begin(), value.end(), result.Values.begin() + static_cast<std::ptrdiff_t>(row));
         std::copy(error.begin(), error.end(), result.Errors.begin() + static_cast<std::ptrdiff_t>(row));
       },
       2e-6 * 8 * most);
     result.Rays = rays;
+  };
+  const auto note = [&] {
     if (record)
     {
       double sum = 0.0, doubt = 0.0;
@@ -276,15 +280,39 @@ void SampleAll(const std::vector<Receiver>& receivers, const RadianceTracer& tra
       record->Add("radiance", sum > 0.0 ? doubt / sum : 0.0, doubt / count, rays);
     }
   };
+  double begin = 0.0;
   if (options.SecondsLeft > 0.0 && !calling.empty())
   {
-    run(FewestSamples, 0.0, 0.2, true);
-    run(MostSamples, 0.2, 1.0, false);
+    run(calling, FewestSamples, 0.0, begin = 0.2, true);
+    note();
   }
-  else
+  std::vector<std::size_t> pilot, rest;
+  for (std::size_t k = 0; k < calling.size(); ++k)
   {
-    run(MostSamples, 0.0, 1.0, true);
+    (k % PilotStride == 0 ? pilot : rest).push_back(calling[k]);
   }
+  const bool limited = options.SecondsLeft > 0.0;
+  const double before = clock.Elapsed();
+  const double middle = begin + (1.0 - begin) / PilotStride;
+  run(pilot, MostSamples, begin, middle, !limited);
+  const double now = clock.Elapsed();
+  const double share =
+    pilot.empty() ? 0.0 : static_cast<double>(rest.size()) / static_cast<double>(pilot.size());
+  const double whole = now + (now - before) * share;
+  result.Cost.PredictedAt = options.SecondsBefore + now;
+  result.Cost.PredictedSeconds =
+    options.SecondsBefore + (limited ? std::min(whole, std::max(now, options.SecondsLeft)) : whole);
+  if (stage.Listener)
+  {
+    stage.Listener->Predicted(result.Cost.PredictedSeconds);
+  }
+  if (!options.PilotOnly)
+  {
+    run(rest, MostSamples, middle, 1.0, !limited);
+    note();
+  }
+  result.Cost.Seconds = options.SecondsBefore + clock.Elapsed();
+  result.Cost.Samples = rays;
   result.TimedOut = expired;
 }
 

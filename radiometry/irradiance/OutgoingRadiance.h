@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/accuracy/RunCost.h"
 #include "radiometry/geometry/SeenPolygon.h"
 #include "radiometry/irradiance/RadianceTracer.h"
 #include "radiometry/scene/Parallel.h"
@@ -19,6 +20,8 @@ struct RadianceOptions
   double RelativeTolerance = 0.01; // of each value's error, relative to the value
   double AbsoluteTolerance = 0.0;  // W/(m^2 sr)
   double SecondsLeft = 0.0;        // after that no value is made better; 0: no limit
+  double SecondsBefore = 0.0;      // of the run, which its prediction includes
+  bool PilotOnly = false;          // end where the cost of the run is known
   int Threads = 0;                 // 0: all
   RadianceEffects Effects;
   /// Share of each light that arrives at each cell of the scene or point, x lights; empty: not known.
@@ -33,6 +36,7 @@ struct RadianceResult
   std::int64_t Rays = 0;
   std::size_t Sampled = 0; // receivers that reflect or transmit
   bool TimedOut = false;
+  RunCost Cost; // of this and what was before
   double LeftOut = 0.0; // bound of what the effects that are off may change
 };
 
@@ -45,6 +49,7 @@ struct RadianceResult
 ///            of the surroundings' B make
 ///   Cost     O(cells); a cell that reflects specularly or transmits: 64 to 16384 samples of about one
 ///            ray a light and two more
+///   Predicts from every 32nd receiver, which are computed first
 ///   Bytes    the same for any number of threads
 RadianceResult ComputeOutgoingRadiance(const Scene& scene, const OcclusionScene& occluders,
   const DiffuseLight& diffuse, const Viewer& viewer, const std::vector<std::int32_t>& cells,

@@ -341,5 +341,26 @@ def test_after_radiosity_in_a_room():
     assert output(f, 2).GetNumberOfRows() >= 1
 
 
+def test_predicts_its_time():
+    plane = vtk.vtkPlaneSource()
+    plane.SetResolution(40, 40)
+    plane.Update()
+    floor = add(plane.GetOutput(), "SpecularReflectance", [0.3] * 1600)
+    f = radiance(floor, lamp((0.1, 0.2, 1.0), 3.0), ViewPoint=(2, 0, 1), RelativeTolerance=0.003,
+                 NumberOfThreads=1)
+    before = f.PredictSeconds()
+    assert before > 0.0
+    assert f.GetOutputDataObject(0).GetNumberOfCells() == 0  # a pilot has no results
+    first = output(f)
+    cost = array(first.GetFieldData(), "RadiometryCost")[0]
+    assert cost[2] <= cost[0] and cost[2] < cost[1], cost  # said before all was spent
+    assert 0.2 < f.GetPredictedSeconds() / cost[0] < 5.0, cost  # a loaded machine; 2 when quiet
+    assert f.GetElapsedSeconds() >= cost[0]
+    again = radiance(floor, lamp((0.1, 0.2, 1.0), 3.0), ViewPoint=(2, 0, 1),
+                     RelativeTolerance=0.003, NumberOfThreads=2)
+    assert np.array_equal(array(output(again).GetCellData(), "Radiance"),
+                          array(first.GetCellData(), "Radiance"))
+
+
 if __name__ == "__main__":
     run_all(globals())
