@@ -3,7 +3,7 @@
 
 #include "radiometry/scene/Monitor.h"
 
-#include "vtkAlgorithm.h"
+#include "vtkRadiometricAlgorithm.h"
 
 /// Hands the core's progress to VTK and VTK's abort to the core.
 class FilterMonitor : public radiometry::Monitor
@@ -28,6 +28,7 @@ public:
     {
       *this->PredictedSeconds = seconds;
     }
+    this->Filter->InvokeEvent(vtkRadiometricAlgorithm::PredictedEvent, &seconds);
   }
 
 private:

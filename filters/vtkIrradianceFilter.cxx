@@ -82,6 +82,14 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   }
 }
 
+void vtkIrradianceFilter::CopyMembers(vtkRadiometricAlgorithm* from)
+{
+  this->Superclass::CopyMembers(from);
+  auto* other = vtkIrradianceFilter::SafeDownCast(from);
+  this->RefineShadowBoundaries = other->RefineShadowBoundaries;
+  this->MaximumPiecesPerCell = other->MaximumPiecesPerCell;
+}
+
 void vtkIrradianceFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

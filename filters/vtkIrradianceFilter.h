@@ -43,6 +43,7 @@ protected:
   vtkIrradianceFilter() = default;
   ~vtkIrradianceFilter() override = default;
 
+  void CopyMembers(vtkRadiometricAlgorithm* from) override;
   void Simulate(Job& job, Result& result) override;
 
   bool RefineShadowBoundaries = false;

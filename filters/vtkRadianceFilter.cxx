@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace names = radiometry::names;
 using radiometry::InputError;
@@ -483,6 +484,19 @@ void vtkRadianceFilter::Simulate(Job& job, Result& result)
     legacy ? "lights carry a legacy attenuation a + b r + c r^2 other than r^2"
            : "all lights that make highlights obey the inverse square law",
     bound);
+}
+
+void vtkRadianceFilter::CopyMembers(vtkRadiometricAlgorithm* from)
+{
+  this->Superclass::CopyMembers(from);
+  auto* other = vtkRadianceFilter::SafeDownCast(from);
+  this->ViewFrom = other->ViewFrom;
+  this->Given = other->Given;
+  this->FNumber = other->FNumber;
+  std::copy(std::begin(other->ViewPoint), std::end(other->ViewPoint), this->ViewPoint);
+  std::copy(std::begin(other->ViewDirection), std::end(other->ViewDirection), this->ViewDirection);
+  std::copy(std::begin(other->ViewAxis), std::end(other->ViewAxis), this->ViewAxis);
+  std::copy(std::begin(other->ReceiverNormal), std::end(other->ReceiverNormal), this->ReceiverNormal);
 }
 
 void vtkRadianceFilter::PrintSelf(ostream& os, vtkIndent indent)

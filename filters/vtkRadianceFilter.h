@@ -96,6 +96,7 @@ protected:
   ~vtkRadianceFilter() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  void CopyMembers(vtkRadiometricAlgorithm* from) override;
   void Simulate(Job& job, Result& result) override;
   std::vector<std::string> CellArraysRead() const override;
   bool WantsPoints(const SceneAdapter& adapter) const override;

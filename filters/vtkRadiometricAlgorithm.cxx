@@ -15,6 +15,7 @@
 #include "vtksys/SystemInformation.hxx"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <string>
 
@@ -67,6 +68,30 @@ const ControllerCommunicator* vtkRadiometricAlgorithm::Ranks()
     ranks->Begin();
   }
   return ranks;
+}
+
+void vtkRadiometricAlgorithm::CopySettings(vtkRadiometricAlgorithm* from)
+{
+  if (!from || std::strcmp(from->GetClassName(), this->GetClassName()) != 0)
+  {
+    vtkErrorMacro("CopySettings: " << (from ? from->GetClassName() : "no filter") << ": expected a "
+                                   << this->GetClassName());
+    return;
+  }
+  this->CopyMembers(from);
+  this->Modified();
+}
+
+void vtkRadiometricAlgorithm::CopyMembers(vtkRadiometricAlgorithm* from)
+{
+  this->RelativeTolerance = from->RelativeTolerance;
+  this->AbsoluteTolerance = from->AbsoluteTolerance;
+  this->TimeBudget = from->TimeBudget;
+  this->MemoryLimit = from->MemoryLimit;
+  this->TwoSided = from->TwoSided;
+  this->MetersPerUnit = from->MetersPerUnit;
+  this->NumberOfThreads = from->NumberOfThreads;
+  this->Controller = from->Controller;
 }
 
 double vtkRadiometricAlgorithm::PredictSeconds()

@@ -2,6 +2,7 @@
 #ifndef vtkRadiometricAlgorithm_h
 #define vtkRadiometricAlgorithm_h
 
+#include "vtkCommand.h"
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkRadiometryFiltersModule.h"
 #include "vtkSmartPointer.h"
@@ -32,6 +33,19 @@ public:
     ON = 1,
     OFF = 2
   };
+
+  /// Invoked in an execution when it is known how long the whole of it will take
+  /// (GetPredictedSeconds); call data: a double, the seconds.
+  enum Events
+  {
+    PredictedEvent = vtkCommand::UserEvent + 7001
+  };
+
+  /// Takes over every property of a filter of the same class; not its inputs, nor what it keeps
+  /// between executions. A subclass adds its own; tests/filters/test_copy_settings.py finds a property
+  /// that was forgotten.
+  ///   Fails   a filter of another class: an error event, nothing is changed
+  void CopySettings(vtkRadiometricAlgorithm* from);
 
   /// Further surfaces that only block light (the last input port, repeatable).
   void AddOccludersConnection(vtkAlgorithmOutput* occluders);
@@ -109,6 +123,9 @@ protected:
   /// The whole of an execution, on every rank (null: one process alone); outputs are empty before it.
   virtual void Compute(const ControllerCommunicator* ranks, vtkInformationVector** inputs,
     vtkInformationVector* outputs) = 0;
+
+  /// The members of CopySettings; `from` is of this object's class. Begins with its superclass's.
+  virtual void CopyMembers(vtkRadiometricAlgorithm* from);
 
   /// Throws an InputError where a number is not in [least, most].
   static void CheckRange(

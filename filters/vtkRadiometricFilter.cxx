@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -179,6 +180,34 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
     writer.WriteConvergence(result, vtkTable::GetData(outputs, 2));
   }
   this->ElapsedSeconds = clock.Elapsed();
+}
+
+void vtkRadiometricFilter::CopyMembers(vtkRadiometricAlgorithm* from)
+{
+  this->Superclass::CopyMembers(from);
+  auto* other = vtkRadiometricFilter::SafeDownCast(from);
+  this->SampleLocation = other->SampleLocation;
+  this->FeatureAngle = other->FeatureAngle;
+  this->Refinement = other->Refinement;
+  this->DiffuseReflectance = other->DiffuseReflectance;
+  this->Photometric = other->Photometric;
+  this->LuminousEfficacy = other->LuminousEfficacy;
+  this->ExposureTime = other->ExposureTime;
+  this->GlobalAmbient = other->GlobalAmbient;
+  this->LightVisibility = other->LightVisibility;
+  this->Occlusion = other->Occlusion;
+  this->Interreflection = other->Interreflection;
+  this->SpecularTransport = other->SpecularTransport;
+  this->Transmission = other->Transmission;
+  this->BackFaces = other->BackFaces;
+  this->Emission = other->Emission;
+  this->Environment = other->Environment;
+  this->SpotShape = other->SpotShape;
+  this->Attenuation = other->Attenuation;
+  std::copy(std::begin(other->ObjectTransform), std::end(other->ObjectTransform), this->ObjectTransform);
+  std::copy(std::begin(other->CameraPosition), std::end(other->CameraPosition), this->CameraPosition);
+  std::copy(std::begin(other->CameraFocalPoint), std::end(other->CameraFocalPoint), this->CameraFocalPoint);
+  std::copy(std::begin(other->CameraViewUp), std::end(other->CameraViewUp), this->CameraViewUp);
 }
 
 void vtkRadiometricFilter::PrintSelf(ostream& os, vtkIndent indent)

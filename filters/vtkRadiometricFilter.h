@@ -152,6 +152,7 @@ protected:
   void Compute(const ControllerCommunicator* ranks, vtkInformationVector** inputs,
     vtkInformationVector* outputs) override;
 
+  void CopyMembers(vtkRadiometricAlgorithm* from) override;
   /// The subclass's physics: reads the job, calls the core, fills the result.
   virtual void Simulate(Job& job, Result& result) = 0;
   /// Cell arrays of the surface that it reads beside those of materials; of N bands.

@@ -114,6 +114,16 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   result.Method = computed.Cells.MethodWhy;
 }
 
+void vtkRadiosityFilter::CopyMembers(vtkRadiometricAlgorithm* from)
+{
+  this->Superclass::CopyMembers(from);
+  auto* other = vtkRadiosityFilter::SafeDownCast(from);
+  this->Method = other->Method;
+  this->CacheOperator = other->CacheOperator;
+  this->OperatorFileMode = other->OperatorFileMode;
+  this->SetOperatorFile(other->OperatorFile);
+}
+
 void vtkRadiosityFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -87,6 +87,7 @@ protected:
   vtkRadiosityFilter();
   ~vtkRadiosityFilter() override;
 
+  void CopyMembers(vtkRadiometricAlgorithm* from) override;
   void Simulate(Job& job, Result& result) override;
 
   int Method = METHOD_AUTO;

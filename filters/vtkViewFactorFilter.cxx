@@ -12,6 +12,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -89,6 +90,19 @@ void vtkViewFactorFilter::Compute(const ControllerCommunicator* ranks,
     std::find(sides.begin(), sides.end(), 1) != sides.end(),
     !scene.TriangleTransmittance.empty(), vtkTable::GetData(outputs, 2));
   writer.WriteConvergence(vtkTable::GetData(outputs, 3));
+}
+
+void vtkViewFactorFilter::CopyMembers(vtkRadiometricAlgorithm* from)
+{
+  this->Superclass::CopyMembers(from);
+  auto* other = vtkViewFactorFilter::SafeDownCast(from);
+  this->Method = other->Method;
+  this->Occlusion = other->Occlusion;
+  this->BackFaces = other->BackFaces;
+  this->Correction = other->Correction;
+  this->EnvironmentRows = other->EnvironmentRows;
+  std::copy(std::begin(other->SkyUp), std::end(other->SkyUp), this->SkyUp);
+  this->SetPatchArray(other->PatchArray);
 }
 
 void vtkViewFactorFilter::PrintSelf(ostream& os, vtkIndent indent)

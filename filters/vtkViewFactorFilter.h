@@ -87,6 +87,7 @@ protected:
   vtkViewFactorFilter();
   ~vtkViewFactorFilter() override;
 
+  void CopyMembers(vtkRadiometricAlgorithm* from) override;
   void Compute(const ControllerCommunicator* ranks, vtkInformationVector** inputs,
     vtkInformationVector* outputs) override;
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/accuracy/ErrorCurve.h"
+
+#include <cmath>
+
+namespace radiometry
+{
+
+double PowerLaw::SecondsTo(double error) const
+{
+  if (!this->Known || !(this->Exponent < 0.0) || !(error > 0.0))
+  {
+    return -1.0;
+  }
+  const double seconds = std::exp(std::log(error / this->Factor) / this->Exponent);
+  return std::isfinite(seconds) ? seconds : -1.0;
+}
+
+PowerLaw FitPowerLaw(const ErrorCurve& curve)
+{
+  PowerLaw law;
+  std::vector<double> x, y;
+  double meanX = 0.0;
+  double meanY = 0.0;
+  for (std::size_t k = 0; k < curve.Seconds.size(); ++k)
+  {
+    if (curve.Seconds[k] > 0.0 && curve.Errors[k] > 0.0)
+    {
+      x.push_back(std::log(curve.Seconds[k]));
+      y.push_back(std::log(curve.Errors[k]));
+      meanX += x.back();
+      meanY += y.back();
+    }
+  }
+  law.Points = x.size();
+  if (x.empty())
+  {
+    return law;
+  }
+  meanX /= static_cast<double>(x.size());
+  meanY /= static_cast<double>(x.size());
+  double xx = 0.0;
+  double xy = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k)
+  {
+    xx += (x[k] - meanX) * (x[k] - meanX);
+    xy += (x[k] - meanX) * (y[k] - meanY);
+  }
+  const double exponent = xx > 0.0 ? xy / xx : 0.0;
+  const double factor = std::exp(meanY - exponent * meanX);
+  law.Known = xx > 0.0 && std::isfinite(exponent) && std::isfinite(factor) && factor > 0.0;
+  if (law.Known)
+  {
+    law.Exponent = exponent;
+    law.Factor = factor;
+  }
+  return law;
+}
+
+Arrival ArriveAt(double error, const ErrorCurve& curve)
+{
+  for (std::size_t k = 0; k < curve.Errors.size(); ++k)
+  {
+    const double here = curve.Errors[k];
+    const double seconds = curve.Seconds[k];
+    if (here > error)
+    {
+      continue;
+    }
+    if (k == 0)
+    {
+      return { Arrival::Already, seconds };
+    }
+    // The run before has a greater error. Where no logarithm can be taken, it took this run.
+    const double before = curve.Seconds[k - 1];
+    if (!(here > 0.0) || !(before > 0.0) || !(seconds > before))
+    {
+      return { Arrival::Between, seconds };
+    }
+    const double way = std::log(curve.Errors[k - 1] / error) / std::log(curve.Errors[k - 1] / here);
+    return { Arrival::Between, before * std::pow(seconds / before, way) };
+  }
+  return {};
+}
+
+} // namespace radiometry

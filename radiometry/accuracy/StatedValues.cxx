@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/accuracy/StatedValues.h"
+
+#include "radiometry/scene/InputError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace radiometry
+{
+
+namespace
+{
+
+/// Calls visit(index of the value, weight) for each value of an item that counts.
+template <class Visit>
+void ForEach(const StatedValues& values, Visit visit)
+{
+  const auto bands = static_cast<std::size_t>(values.Bands);
+  for (std::size_t i = 0; i < values.Items(); ++i)
+  {
+    if (values.Weights[i] > 0.0)
+    {
+      for (std::size_t b = 0; b < bands; ++b)
+      {
+        visit(i * bands + b, values.Weights[i]);
+      }
+    }
+  }
+}
+
+double ErrorOf(const StatedValues& values, std::size_t i)
+{
+  return values.Errors.empty() ? 0.0 : values.Errors[i];
+}
+
+/// The middle one, of an even number the mean of the two; 0 where there is none.
+double Median(std::vector<double>& numbers)
+{
+  if (numbers.empty())
+  {
+    return 0.0;
+  }
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return numbers.size() % 2 == 1 ? *middle
+                                 : 0.5 * (*middle + *std::max_element(numbers.begin(), middle));
+}
+
+void CheckAlike(const StatedValues& values, const StatedValues& reference)
+{
+  if (values.Bands != reference.Bands)
+  {
+    throw InputError("Reference", -1, std::to_string(reference.Bands) + " components",
+      std::to_string(values.Bands));
+  }
+  if (values.Values.size() != reference.Values.size())
+  {
+    throw InputError("Reference", -1, std::to_string(reference.Values.size()) + " values",
+      std::to_string(values.Values.size()));
+  }
+}
+
+template <class Other>
+RelativeDifference DifferencesFrom(const StatedValues& values, Other other)
+{
+  RelativeDifference found;
+  std::vector<double> all;
+  ForEach(values, [&](std::size_t i, double) {
+    const double a = values.Values[i];
+    const double b = other(i);
+    const double scale = std::max(std::abs(a), std::abs(b));
+    if (scale > 0.0)
+    {
+      all.push_back(std::abs(a - b) / scale);
+      found.Greatest = std::max(found.Greatest, all.back());
+    }
+  });
+  found.Values = all.size();
+  found.Median = Median(all);
+  return found;
+}
+
+} // namespace
+
+StatedError SummarizeErrors(const StatedValues& values)
+{
+  StatedError found;
+  double weights = 0.0;
+  ForEach(values, [&](std::size_t i, double weight) {
+    const double error = ErrorOf(values, i);
+    weights += weight;
+    found.MeanValue += weight * std::abs(values.Values[i]);
+    found.Absolute += weight * error;
+    found.Greatest = std::max(found.Greatest, error);
+    ++found.Values;
+  });
+  if (weights > 0.0)
+  {
+    found.MeanValue /= weights;
+    found.Absolute /= weights;
+  }
+  found.Relative = found.MeanValue > 0.0 ? found.Absolute / found.MeanValue : 0.0;
+  return found;
+}
+
+Deviation Compare(const StatedValues& values, const StatedValues& reference)
+{
+  CheckAlike(values, reference);
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  Deviation found;
+  double weights = 0.0;
+  double squares = 0.0;
+  double mean = 0.0;
+  std::size_t covered = 0;
+  std::vector<double> ratios;
+  ForEach(values, [&](std::size_t i, double weight) {
+    const double exact = reference.Values[i];
+    const double error = ErrorOf(values, i);
+    const double off = std::abs(values.Values[i] - exact);
+    const double doubt = std::max(ErrorOf(reference, i), rounding * std::abs(exact));
+    weights += weight;
+    squares += weight * off * off;
+    mean += weight * std::abs(exact);
+    found.Absolute += weight * off;
+    found.Greatest = std::max(found.Greatest, off);
+    covered += off <= std::hypot(error, doubt) ? 1 : 0;
+    if (off > rounding * std::abs(exact))
+    {
+      ratios.push_back(error / off);
+    }
+    ++found.Values;
+  });
+  if (found.Values == 0)
+  {
+    return found;
+  }
+  found.Absolute /= weights;
+  found.Coverage = static_cast<double>(covered) / static_cast<double>(found.Values);
+  const double root = std::sqrt(squares / weights);
+  found.Relative = mean > 0.0 ? root * weights / mean : 0.0;
+  found.Sharpness = ratios.empty() ? -1.0 : Median(ratios);
+  return found;
+}
+
+RelativeDifference Differences(const StatedValues& a, const StatedValues& b)
+{
+  CheckAlike(a, b);
+  return DifferencesFrom(a, [&](std::size_t i) { return b.Values[i]; });
+}
+
+RelativeDifference FloatStorage(const StatedValues& values)
+{
+  return DifferencesFrom(
+    values, [&](std::size_t i) { return static_cast<double>(static_cast<float>(values.Values[i])); });
+}
+
+} // namespace radiometry
