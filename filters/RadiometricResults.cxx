@@ -316,6 +316,7 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   KeepStrings(data, "RadiometryOptions", ": ", options);
   AddStrings(data, "RadiometryOptions", options);
   AddStrings(data, "RadiometryOutcome", { result.Outcome });
+  AddStrings(data, names::EffectPlan, ExplainEffects(result));
   const std::pair<const char*, double> costs[] = { { "Seconds", result.Cost.Seconds },
     { "PredictedSeconds", result.Cost.PredictedSeconds },
     { "PredictedAt", result.Cost.PredictedAt },
@@ -337,41 +338,65 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   }
 }
 
+std::vector<std::string> ExplainEffects(const vtkRadiometricFilter::Result& result)
+{
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < result.Effects.size(); ++k)
+  {
+    if (result.Effects[k].Known)
+    {
+      lines.push_back(radiometry::Explain(
+        static_cast<radiometry::Effect>(k), result.Effects[k], result.BoundUnit));
+    }
+  }
+  for (const auto& o : result.Omissions)
+  {
+    radiometry::EffectDecision row;
+    row.Present = row.Dropped = true;
+    row.Why = o.Why;
+    row.Bound = o.Bound;
+    lines.push_back(radiometry::Explain(o.Name, row, result.BoundUnit));
+  }
+  return lines;
+}
+
 void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) const
 {
   auto* effect = AddColumn<vtkStringArray>(table, "Effect");
+  auto* switches = AddColumn<vtkStringArray>(table, "Switch");
   auto* decision = AddColumn<vtkStringArray>(table, "Decision");
-  auto* why = AddColumn<vtkStringArray>(table, "Why");
   auto* bound = AddColumn<vtkDoubleArray>(table, "Bound");
   auto* unit = AddColumn<vtkStringArray>(table, "Unit");
   auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
-  const auto add = [&](const std::string& name, const char* what, const std::string& reason,
-                     double value, double spent) {
+  auto* why = AddColumn<vtkStringArray>(table, "Why");
+  const auto add = [&](const std::string& name, const char* wish, const char* what,
+                     const std::string& reason, double value, double spent) {
     effect->InsertNextValue(name);
+    switches->InsertNextValue(wish);
     decision->InsertNextValue(what);
-    why->InsertNextValue(reason);
     bound->InsertNextValue(value);
     unit->InsertNextValue(result.BoundUnit);
     seconds->InsertNextValue(spent);
+    why->InsertNextValue(reason);
   };
   for (std::size_t k = 0; k < result.Effects.size(); ++k)
   {
     const radiometry::EffectDecision& d = result.Effects[k];
-    if (!d.Known)
+    const auto which = static_cast<radiometry::Effect>(k);
+    if (d.Known)
     {
-      continue;
+      add(radiometry::EffectName(which),
+        radiometry::HasSwitch(which) ? radiometry::SwitchName(d.Wish) : "",
+        radiometry::DecisionName(d), d.Why, d.Bound, d.Seconds);
     }
-    add(radiometry::EffectName(static_cast<radiometry::Effect>(k)),
-      d.Simulated ? "simulated" : (d.Present ? "left out" : "not needed"), d.Why, d.Bound,
-      d.Seconds);
   }
   for (const Result::Omission& o : result.Omissions)
   {
-    add(o.Name, "left out", o.Why, o.Bound, 0.0);
+    add(o.Name, "", "dropped", o.Why, o.Bound, 0.0);
   }
   for (const auto& [name, value] : result.ErrorParts)
   {
-    add(name, "estimated", "its part of IrradianceError, averaged over the surface", value, 0.0);
+    add(name, "", "estimated", "its part of IrradianceError, averaged over the surface", value, 0.0);
   }
 }
 

@@ -23,6 +23,9 @@ class vtkTable;
 void AddShares(std::array<radiometry::LightShares, 2>& computed,
   std::vector<vtkRadiometricFilter::Result::Shares>& shares);
 
+/// A sentence for each row of the EffectPlan that is an effect or was left out.
+std::vector<std::string> ExplainEffects(const vtkRadiometricFilter::Result& result);
+
 /// Writes what a simulating filter computed onto its outputs.
 class RadiometricResults
 {

@@ -22,6 +22,7 @@
 #include <iterator>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace
 {
@@ -84,12 +85,42 @@ void vtkRadiometricFilter::SetObjectTransform(vtkMatrix4x4* matrix)
   this->SetObjectTransform(matrix->GetData());
 }
 
+std::vector<radiometry::EffectSwitch> vtkRadiometricFilter::EffectSwitches() const
+{
+  using radiometry::Effect;
+  const std::pair<Effect, int> choices[] = {
+    { Effect::Occlusion, this->Occlusion },
+    { Effect::Interreflection, this->Interreflection },
+    { Effect::SpecularTransport, this->SpecularTransport },
+    { Effect::Transmission, this->Transmission },
+    { Effect::BackFaces, this->BackFaces },
+    { Effect::Emission, this->Emission },
+    { Effect::Environment, this->Environment },
+    { Effect::SpotShape, this->SpotShape },
+    { Effect::Attenuation, this->Attenuation },
+    { Effect::PointLights, this->PointLights },
+    { Effect::SpotLights, this->SpotLights },
+    { Effect::DirectionalLights, this->DirectionalLights },
+    { Effect::AreaLights, this->AreaLights },
+    { Effect::CandelaWebs, this->CandelaWebs },
+    { Effect::Mirrors, this->Mirrors },
+    { Effect::SpectralBands, this->SpectralBands },
+  };
+  std::vector<radiometry::EffectSwitch> switches(radiometry::EffectCount);
+  for (const auto& [effect, choice] : choices)
+  {
+    switches[static_cast<std::size_t>(effect)] = static_cast<radiometry::EffectSwitch>(choice);
+  }
+  return switches;
+}
+
 void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const radiometry::ConvergenceRecord clock;
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   const double infinite = std::numeric_limits<double>::max();
+  this->Explanation.clear();
   this->CheckLimits();
   CheckRange("ExposureTime", this->ExposureTime, 0.0, infinite, "seconds, at least 0");
   CheckRange("LuminousEfficacy", this->LuminousEfficacy, 1e-300, infinite, "lm/W, above 0");
@@ -123,12 +154,7 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
   job.Ranks = ranks;
   job.Memory = this->MemoryBytes(ranks);
   job.Threads = ThreadsOfRank(ranks, this->NumberOfThreads);
-  for (const int choice : { this->Occlusion, this->Interreflection, this->SpecularTransport,
-         this->Transmission, this->BackFaces, this->Emission, this->Environment, this->SpotShape,
-         this->Attenuation })
-  {
-    job.Switches.push_back(static_cast<radiometry::EffectSwitch>(choice));
-  }
+  job.Switches = this->EffectSwitches();
   job.WantCells = !this->WantsPoints(adapter);
   const SurfacePoints points(
     adapter, scene, this->MetersPerUnit, !job.WantCells, this->FeatureAngle);
@@ -154,6 +180,10 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
   AddDose(result.Cells, this->ExposureTime);
   AddDose(result.Points, this->ExposureTime);
 
+  for (const std::string& line : ExplainEffects(result))
+  {
+    this->Explanation += line + '\n';
+  }
   std::ostringstream options;
   options << "RelativeTolerance=" << this->RelativeTolerance
           << "; AbsoluteTolerance=" << this->AbsoluteTolerance

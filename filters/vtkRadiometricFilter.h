@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace radiometry
+{
+enum class EffectSwitch;
+}
 class ControllerCommunicator;
 class SceneAdapter;
 class vtkMatrix4x4;
@@ -19,7 +23,7 @@ class vtkMultiProcessController;
 ///   Outputs 0 the surface with its results; 1 EffectPlan; 2 Convergence (vtkTable)
 ///   Reads   the material and light arrays of docs/arrays.md
 ///   Writes  field data on output 0: RadiometryUnits, RadiometryVersion, RadiometryOptions,
-///           RadiometryOutcome (what ended the run)
+///           RadiometryOutcome (what ended the run), EffectPlan (a sentence an effect)
 ///   Fails   input that cannot be computed with: an error that names array, index and value, empty
 ///           outputs
 class VTKRADIOMETRYFILTERS_EXPORT vtkRadiometricFilter : public vtkRadiometricAlgorithm
@@ -123,8 +127,9 @@ public:
   ///@}
 
   ///@{
-  /// What to simulate: 0 Auto (default; what the scene calls for), 1 On, 2 Off (left out, and the
-  /// EffectPlan still bounds what that may change).
+  /// What to simulate: 0 Auto (default; what the scene calls for and what can matter beside the
+  /// tolerance), 1 On, 2 Off (left out, and the EffectPlan still bounds what that may change).
+  /// What each of them is, and how its bound comes about: docs/filters/effect-plan.md.
   vtkSetClampMacro(Occlusion, int, AUTO, OFF);
   vtkGetMacro(Occlusion, int);
   vtkSetClampMacro(Interreflection, int, AUTO, OFF);
@@ -143,7 +148,24 @@ public:
   vtkGetMacro(SpotShape, int);
   vtkSetClampMacro(Attenuation, int, AUTO, OFF);
   vtkGetMacro(Attenuation, int);
+  vtkSetClampMacro(PointLights, int, AUTO, OFF);
+  vtkGetMacro(PointLights, int);
+  vtkSetClampMacro(SpotLights, int, AUTO, OFF);
+  vtkGetMacro(SpotLights, int);
+  vtkSetClampMacro(DirectionalLights, int, AUTO, OFF);
+  vtkGetMacro(DirectionalLights, int);
+  vtkSetClampMacro(AreaLights, int, AUTO, OFF);
+  vtkGetMacro(AreaLights, int);
+  vtkSetClampMacro(CandelaWebs, int, AUTO, OFF);
+  vtkGetMacro(CandelaWebs, int);
+  vtkSetClampMacro(Mirrors, int, AUTO, OFF);
+  vtkGetMacro(Mirrors, int);
+  vtkSetClampMacro(SpectralBands, int, AUTO, OFF);
+  vtkGetMacro(SpectralBands, int);
   ///@}
+  /// A sentence an effect, line by line: why the last execution kept it or left it out, and what that
+  /// may change. Empty before the first one. The same as field data EffectPlan.
+  std::string Explain() const { return this->Explanation; }
 
 protected:
   vtkRadiometricFilter();
@@ -182,8 +204,19 @@ protected:
   int Environment = AUTO;
   int SpotShape = AUTO;
   int Attenuation = AUTO;
+  int PointLights = AUTO;
+  int SpotLights = AUTO;
+  int DirectionalLights = AUTO;
+  int AreaLights = AUTO;
+  int CandelaWebs = AUTO;
+  int Mirrors = AUTO;
+  int SpectralBands = AUTO;
+  std::string Explanation;
 
 private:
+  /// The switches by effect.
+  std::vector<radiometry::EffectSwitch> EffectSwitches() const;
+
   vtkRadiometricFilter(const vtkRadiometricFilter&) = delete;
   void operator=(const vtkRadiometricFilter&) = delete;
 };

@@ -19,6 +19,53 @@ const char* EffectName(Effect effect)
   return names[static_cast<int>(effect)];
 }
 
+bool HasSwitch(Effect effect)
+{
+  return effect != Effect::GlobalAmbient && effect != Effect::PointSampling &&
+    effect != Effect::Discretisation;
+}
+
+const char* SwitchName(EffectSwitch value)
+{
+  static const char* const names[] = { "Auto", "On", "Off" };
+  return names[static_cast<int>(value)];
+}
+
+const char* DecisionName(const EffectDecision& decision)
+{
+  if (decision.Simulated)
+  {
+    return "simulated";
+  }
+  return decision.Dropped ? "dropped" : (decision.Present ? "left out" : "not needed");
+}
+
+std::string Explain(Effect effect, const EffectDecision& d, const std::string& unit)
+{
+  return Explain(std::string(EffectName(effect)), d, unit);
+}
+
+std::string Explain(const std::string& name, const EffectDecision& d, const std::string& unit)
+{
+  std::ostringstream text;
+  text << name << " is " << DecisionName(d) << ": " << d.Why;
+  if (d.Present && (!d.Simulated || d.Bound > 0.0))
+  {
+    if (!std::isfinite(d.Bound))
+    {
+      text << "; what that changes cannot be bounded";
+    }
+    else
+    {
+      text << (d.Simulated ? "; what is left out of it changes no value by more than "
+                           : "; that changes no value by more than ")
+           << d.Bound << ' ' << unit;
+    }
+  }
+  text << '.';
+  return text.str();
+}
+
 EffectPlan::EffectPlan(const std::vector<EffectSwitch>& switches, std::string unit)
   : Rows(EffectCount)
   , Unit(std::move(unit))
@@ -84,23 +131,7 @@ bool EffectPlan::LeavesOut() const
 
 std::string EffectPlan::Explain(Effect effect) const
 {
-  const EffectDecision& d = (*this)[effect];
-  std::ostringstream text;
-  text << EffectName(effect) << (d.Simulated ? " is simulated: " : (d.Present ? " is left out: " : " is not needed: "))
-       << d.Why;
-  if (!d.Simulated && d.Present)
-  {
-    if (std::isfinite(d.Bound))
-    {
-      text << "; that changes no value by more than " << d.Bound << ' ' << this->Unit;
-    }
-    else
-    {
-      text << "; what that changes cannot be bounded";
-    }
-  }
-  text << '.';
-  return text.str();
+  return radiometry::Explain(effect, (*this)[effect], this->Unit);
 }
 
 std::string EffectPlan::Explain() const

@@ -45,6 +45,11 @@ enum class Effect
 inline constexpr int EffectCount = 23;
 /// The word of an effect in tables: that of its switch.
 const char* EffectName(Effect effect);
+/// Whether filters have a switch of that name. GlobalAmbient is a number that is given,
+/// PointSampling follows SampleLocation and Discretisation follows Refinement.
+bool HasSwitch(Effect effect);
+/// Auto, On or Off.
+const char* SwitchName(EffectSwitch value);
 
 /// One row of the EffectPlan table.
 struct EffectDecision
@@ -61,6 +66,13 @@ struct EffectDecision
                         // (Transmission: what is left out of it, where that is the indirect light)
   double Seconds = 0.0; // spent on it
 };
+
+/// simulated, dropped (by Auto), left out (by the user, or as it cannot be simulated), not needed.
+const char* DecisionName(const EffectDecision& decision);
+/// In a sentence, why the effect was kept or left out, and what that may change.
+std::string Explain(Effect effect, const EffectDecision& decision, const std::string& unit);
+std::string Explain(
+  const std::string& name, const EffectDecision& decision, const std::string& unit);
 
 /// What a computation carries and what it leaves out, effect by effect, decided before it begins:
 /// of both simulating filters (SceneEffects.h) and of the picture.

@@ -156,12 +156,15 @@ double GreatestExtended(const Scene& scene)
 } // namespace
 
 SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& switches,
-  const EffectAbilities& abilities, bool freePoints)
+  const EffectAbilities& abilities, const std::vector<SurfacePoint>& points, bool cells)
   : Whole(scene)
+  , Groups(SingleBands(scene.Optics.Bands))
   , Decided(switches)
   , Indirect(abilities.Interreflection)
   , Paths(abilities.Paths)
 {
+  const bool freePoints =
+    std::any_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectPlan& plan = this->Decided;
   const Materials& optics = scene.Optics;
   const Convexity convexity = FindConvexity(scene);
@@ -248,6 +251,113 @@ SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& 
     "spot lights have a cone or an exponent");
   plan.Decide(Effect::Attenuation, legacy, true, "all lights obey the inverse square law",
     "lights carry a legacy attenuation a + b r + c r^2 other than r^2");
+  this->DecideLights();
+  bool perfect = false;
+  for (std::size_t cell = 0; cell < scene.Cells && specular > 0.0 && !perfect; ++cell)
+  {
+    perfect = IsMirror(optics, 0, cell) || IsMirror(optics, 1, cell);
+  }
+  const bool transport = plan.Simulates(Effect::SpecularTransport);
+  plan.Decide(Effect::Mirrors, perfect, transport || !plan[Effect::SpecularTransport].Present,
+    "every surface that reflects specularly has a lobe",
+    transport ? "surfaces reflect specularly without a lobe" : "left out with SpecularTransport");
+  plan[Effect::Mirrors].Present = perfect && plan[Effect::SpecularTransport].Present;
+  this->DecideBands();
+  this->DecideSampling(abilities, points, cells);
+  this->Reduce();
+}
+
+void SceneEffects::DecideLights()
+{
+  static constexpr std::pair<Effect, LightType> kinds[] = {
+    { Effect::PointLights, LightType::Point }, { Effect::SpotLights, LightType::Spot },
+    { Effect::DirectionalLights, LightType::Directional }, { Effect::AreaLights, LightType::Area }
+  };
+  const auto count = [&](auto test) {
+    return std::count_if(this->Whole.Lights.begin(), this->Whole.Lights.end(),
+      [&](const Light& light) { return light.Enabled && test(light); });
+  };
+  EffectPlan& plan = this->Decided;
+  static const char* const words[] = { "point light", "spot light", "directional light",
+    "area light" };
+  for (std::size_t k = 0; k < std::size(kinds); ++k)
+  {
+    const auto lights = count([&](const Light& l) { return l.Type == kinds[k].second; });
+    const std::string word = words[k];
+    plan.Decide(kinds[k].first, lights > 0, true, "no " + word + " is on",
+      std::to_string(lights) + ' ' + word + (lights > 1 ? "s are on" : " is on"));
+  }
+  const auto webs =
+    count([](const Light& l) { return l.Type == LightType::Point && l.Web != nullptr; });
+  plan.Decide(Effect::CandelaWebs, webs > 0, true, "no light has a candela web",
+    std::to_string(webs) + (webs > 1 ? " lights have candela webs" : " light has a candela web"));
+  const bool ambient = Greatest(this->Whole.GlobalAmbient) > 0.0;
+  plan.Decide(Effect::GlobalAmbient, ambient, true, "there is no global ambient light",
+    "every point gets ambient light that nothing hides");
+}
+
+void SceneEffects::DecideBands()
+{
+  EffectPlan& plan = this->Decided;
+  const int bands = this->Whole.Optics.Bands;
+  const EffectSwitch wish = plan[Effect::SpectralBands].Wish;
+  if (bands > 1 && wish != EffectSwitch::On)
+  {
+    this->Groups = FindBandGroups(this->Whole);
+  }
+  const auto groups = static_cast<int>(this->Groups.Size());
+  const bool differ = bands > 1 && (groups > 1 || wish == EffectSwitch::On);
+  plan.Decide(Effect::SpectralBands, differ, true,
+    bands > 1 ? "the " + std::to_string(bands) + " bands are equal: one is computed and copied"
+              : "there is one band",
+    wish == EffectSwitch::On || groups == bands
+      ? std::to_string(bands) + " bands are computed one by one"
+      : std::to_string(groups) + " of " + std::to_string(bands) +
+        " bands differ; the others are copies of these");
+}
+
+void SceneEffects::DecideSampling(
+  const EffectAbilities& abilities, const std::vector<SurfacePoint>& points, bool cells)
+{
+  EffectPlan& plan = this->Decided;
+  plan[Effect::PointSampling].Wish = EffectSwitch::Auto;
+  plan.Decide(Effect::PointSampling, !points.empty(), true,
+    "averages over cells are wanted: they are integrals, not samples",
+    std::to_string(points.size()) + " values are wanted at points" +
+      (cells ? ", beside averages over cells" : ""));
+  plan[Effect::Discretisation].Wish = abilities.Refinement;
+  plan.Decide(Effect::Discretisation, plan.Simulates(Effect::Interreflection),
+    abilities.Interreflection,
+    this->Indirect ? "no light goes from surface to surface: there are no elements"
+                   : "direct light is integrated over each cell: there are no elements",
+    "what each surface reflects varies over it: the solve may take finer elements than the cells");
+}
+
+void SceneEffects::Reduce()
+{
+  const EffectPlan& plan = this->Decided;
+  static constexpr Effect kinds[] = { Effect::PointLights, Effect::SpotLights,
+    Effect::DirectionalLights, Effect::AreaLights, Effect::Environment };
+  SceneParts parts;
+  bool less = false;
+  for (std::size_t k = 0; k < std::size(kinds); ++k)
+  {
+    parts.WithoutLights[k] = plan.LeavesOut(kinds[k]);
+    less = less || parts.WithoutLights[k];
+  }
+  parts.WithoutWebs = plan.LeavesOut(Effect::CandelaWebs);
+  parts.WithoutMirrors =
+    plan.LeavesOut(Effect::Mirrors) && plan.Simulates(Effect::SpecularTransport);
+  parts.Grey = plan.LeavesOut(Effect::SpectralBands);
+  if (parts.Grey)
+  {
+    this->Groups.Group.assign(this->Groups.Group.size(), 0);
+    this->Groups.Firsts.assign(1, 0);
+  }
+  if (less || parts.WithoutWebs || parts.WithoutMirrors || !this->Groups.AllApart())
+  {
+    this->Reduced = std::make_unique<Scene>(ReduceScene(this->Whole, parts, this->Groups));
+  }
 }
 
 bool SceneEffects::CallsForPaths() const
@@ -317,6 +427,14 @@ void SceneEffects::Bound(
     { Effect::Environment, withReflection(sky) },
     { Effect::SpotShape, spot },
     { Effect::Attenuation, attenuation },
+    { Effect::PointLights, withReflection(direct) },
+    { Effect::SpotLights, withReflection(direct) },
+    { Effect::DirectionalLights, withReflection(direct) },
+    { Effect::AreaLights, withReflection(direct) },
+    { Effect::CandelaWebs, withReflection(direct) },
+    { Effect::Mirrors, specularBound },
+    { Effect::SpectralBands, withReflection(direct) },
+    { Effect::Discretisation, withReflection(direct) },
   };
   for (const auto& [effect, bound] : bounds)
   {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "radiometry/effects/EffectPlan.h"
+#include "radiometry/effects/SimulatedScene.h"
+#include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,29 +26,46 @@ struct EffectAbilities
   std::string NoPaths;            // why not, in words
   double RelativeTolerance = 0.0; // what cannot change a value by that is left out
   double AbsoluteTolerance = 0.0; // W/m^2; whichever of the two is the greater
+  bool Drops = true;              // Auto may leave out what cannot matter
+  EffectSwitch Refinement = EffectSwitch::Off; // elements finer than the cells
 };
 
 /// Decides, effect by effect, what a scene calls for, before anything is simulated.
-///   Occlusion      not needed when no triangle can hide a light from another: a convex body seen
-///                  from outside, a convex room with its lights inside
-///   Interreflection not needed when no front faces another, or nothing reflects
-///   SpotShape      not needed when there is no spot; Attenuation: when all lights obey 1/r^2
-///   BackFaces, Emission, SpecularTransport, Transmission: when no material asks for them
+///   PointLights, SpotLights, DirectionalLights, AreaLights, Environment
+///                  lights of that kind are on; left out: they are off
+///   SpotShape, Attenuation, CandelaWebs
+///                  some spot has a cone or an exponent, some light another attenuation than 1/r^2,
+///                  some a web; left out: spots and webs shine alike in all directions, as on the
+///                  axis or as at most, and all lights by the inverse square law
+///   GlobalAmbient  there is such light; it has no switch and costs nothing
+///   Occlusion      something can stand between a light and a receiver: not in a convex body seen
+///                  from outside, nor in a convex room with its lights inside
+///   Transmission, BackFaces, Emission, SpecularTransport, Mirrors
+///                  some material asks for it; left out, it is as if no material did
+///   Interreflection  surfaces face each other and reflect
+///   SpectralBands  bands differ; bands that are equal to the last bit are computed once (On: each by
+///                  itself). Left out: all have the values of their mean
+///   PointSampling  values are wanted at points; no switch
+///   Discretisation the solve may take finer elements than the cells; follows Refinement
 class SceneEffects
 {
 public:
-  /// `freePoints`: values are wanted off the surface too, where even a convex body hides lights.
-  /// `scene` must outlive this.
+  /// Values are wanted as averages over `cells`, at `points`, or both: free ones are off the surface,
+  /// where even a convex body hides lights. `scene` must outlive this.
   SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& switches,
-    const EffectAbilities& abilities, bool freePoints = false);
+    const EffectAbilities& abilities, const std::vector<SurfacePoint>& points = {},
+    bool cells = true);
 
   const EffectPlan& Plan() const { return this->Decided; }
   EffectPlan& Plan() { return this->Decided; }
 
   /// What is to be simulated: the scene without what the plan leaves out of its lights and bands.
-  const Scene& Simulated() const { return this->Whole; }
+  const Scene& Simulated() const { return this->Reduced ? *this->Reduced : this->Whole; }
   /// Values or errors of the bands of Simulated(), items x bands, as those of the scene.
-  std::vector<double> AllBands(std::vector<double> values) const { return values; }
+  std::vector<double> AllBands(std::vector<double> values) const
+  {
+    return SpreadBands(std::move(values), this->Groups);
+  }
 
   /// True when light has to be followed over mirrors or through panes on its way from surface to
   /// surface: the MonteCarlo method alone does that.
@@ -67,7 +87,16 @@ public:
   void Bound(double peak, double peakBack, double spot, double attenuation, double sky = 0.0);
 
 private:
+  void DecideLights();
+  void DecideBands();
+  void DecideSampling(const EffectAbilities& abilities, const std::vector<SurfacePoint>& points,
+    bool cells);
+  /// Makes the scene that is simulated, where it is not the whole.
+  void Reduce();
+
   const Scene& Whole;
+  std::unique_ptr<Scene> Reduced;
+  BandGroups Groups;
   EffectPlan Decided;
   bool Indirect; // the run follows light from surface to surface
   bool Paths;    // ... over mirrors and through panes

@@ -140,15 +140,13 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
   {
     CheckLightVisibility(given);
   }
-  const bool freePoints = std::any_of(
-    points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
   EffectAbilities abilities;
   abilities.Emission = true;
   abilities.Environment = true;
   abilities.Transmission = true;
   abilities.RelativeTolerance = options.RelativeTolerance;
   abilities.AbsoluteTolerance = options.AbsoluteTolerance;
-  SceneEffects effects(given, options.Switches, abilities, freePoints);
+  SceneEffects effects(given, options.Switches, abilities, points, options.Cells);
   EffectPlan& plan = effects.Plan();
   const Scene& scene = effects.Simulated();
   const OcclusionScene occluders(scene);

@@ -60,6 +60,7 @@ inline constexpr char Facing[] = "Facing"; // 1 front, -1 back, 0 neither
 inline constexpr char OffAxisAngle[] = "OffAxisAngle"; // degrees
 inline constexpr char ImageIrradiance[] = "ImageIrradiance"; // in a camera
 inline constexpr char ImageIlluminance[] = "ImageIlluminance";
+inline constexpr char EffectPlan[] = "EffectPlan"; // field data: a sentence an effect
 inline constexpr char BackSuffix[] = "Back";   // IrradianceBack, ...
 inline constexpr char ErrorSuffix[] = "Error"; // IrradianceError, ...
 

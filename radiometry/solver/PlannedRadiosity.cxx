@@ -140,9 +140,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   abilities.NoPaths = !rays ? "only the MonteCarlo method follows light there"
     : unoccluded            ? "where Occlusion is off, rays meet nothing to go on from"
                             : "";
-  const bool freePoints =
-    std::any_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle < 0; });
-  SceneEffects effects(given, switches, abilities, freePoints);
+  abilities.Refinement = static_cast<EffectSwitch>(options.Refinement);
+  SceneEffects effects(given, switches, abilities, points, cells);
   EffectPlan& plan = effects.Plan();
   const Scene& scene = effects.Simulated();
   options.Interreflection = plan.Simulates(Effect::Interreflection);
