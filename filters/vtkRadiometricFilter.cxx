@@ -234,6 +234,13 @@ void vtkRadiometricFilter::CopyMembers(vtkRadiometricAlgorithm* from)
   this->Environment = other->Environment;
   this->SpotShape = other->SpotShape;
   this->Attenuation = other->Attenuation;
+  this->PointLights = other->PointLights;
+  this->SpotLights = other->SpotLights;
+  this->DirectionalLights = other->DirectionalLights;
+  this->AreaLights = other->AreaLights;
+  this->CandelaWebs = other->CandelaWebs;
+  this->Mirrors = other->Mirrors;
+  this->SpectralBands = other->SpectralBands;
   std::copy(std::begin(other->ObjectTransform), std::end(other->ObjectTransform), this->ObjectTransform);
   std::copy(std::begin(other->CameraPosition), std::end(other->CameraPosition), this->CameraPosition);
   std::copy(std::begin(other->CameraFocalPoint), std::end(other->CameraFocalPoint), this->CameraFocalPoint);

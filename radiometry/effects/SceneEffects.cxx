@@ -431,9 +431,9 @@ void SceneEffects::Bound(
     { Effect::SpotLights, withReflection(direct) },
     { Effect::DirectionalLights, withReflection(direct) },
     { Effect::AreaLights, withReflection(direct) },
-    { Effect::CandelaWebs, withReflection(direct) },
+    { Effect::CandelaWebs, infinite },
     { Effect::Mirrors, specularBound },
-    { Effect::SpectralBands, withReflection(direct) },
+    { Effect::SpectralBands, infinite },
     { Effect::Discretisation, withReflection(direct) },
   };
   for (const auto& [effect, bound] : bounds)

@@ -98,7 +98,11 @@ void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double pe
   bare.Ranks = ranks;
   if ((plan.LeavesOut() || plan[Effect::Transmission].Present) && peak < 0.0)
   {
-    peak = ComputeDirectIrradiance(scene, occluders, MakePatches(scene, 0), bare).PeakUnshadowed;
+    for (int side = 0; side < 2; ++side)
+    {
+      peak = std::max(peak,
+        ComputeDirectIrradiance(scene, occluders, MakePatches(scene, side), bare).PeakUnshadowed);
+    }
   }
   double peakBack = 0.0;
   double spot = 0.0;
@@ -261,7 +265,7 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
       values->Errors = effects.AllBands(std::move(values->Errors));
     }
   }
-  BoundLeftOut(given, occluders, peak, options.Threads, effects, options.Ranks);
+  BoundLeftOut(given, occluders, &scene == &given ? peak : -1.0, options.Threads, effects, options.Ranks);
   result.Effects = plan.Decisions();
   result.Cost.Seconds = result.Convergence.Elapsed();
   result.Cost.Samples = rays;

@@ -6,7 +6,7 @@ import tempfile
 
 import numpy as np
 import vtkmodules.all as vtk
-from checks import array, cell_values, close, fails, run_all, simulation, square
+from checks import array, cell_values, close, fails, run_all, simulation, square, strings
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkradiometry import (vtkAreaLightSource, vtkEnvironmentLightSource, vtkIrradianceFilter,
                            vtkPhotometricFileReader, vtkRadiosityFilter)
