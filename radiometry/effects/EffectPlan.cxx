@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/effects/EffectPlan.h"
 
+#include "radiometry/effects/CompiledEffects.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -82,15 +84,16 @@ void EffectPlan::Decide(Effect effect, bool present, bool able, const std::strin
   EffectDecision& d = (*this)[effect];
   d.Known = true;
   d.Present = present;
-  d.Able = able;
-  d.Simulated = able && d.Wish != EffectSwitch::Off && (present || d.Wish == EffectSwitch::On);
+  d.Able = able && Compiled(effect);
+  d.Simulated = d.Able && d.Wish != EffectSwitch::Off && (present || d.Wish == EffectSwitch::On);
   if (!present)
   {
     d.Why = d.Simulated ? "switched on; " + whyAbsent : whyAbsent;
   }
-  else if (!able)
+  else if (!d.Able)
   {
-    d.Why = whyPresent + "; not simulated by this filter";
+    d.Why = whyPresent +
+      (able ? "; this build leaves it out" : "; not simulated by this filter");
   }
   else
   {

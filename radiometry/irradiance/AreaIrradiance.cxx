@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/AreaIrradiance.h"
 
+#include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/irradiance/AreaStage.h"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
   DirectResult& result)
 {
   const ConvergenceRecord clock;
-  const AreaSources sources(scene, options.Emission, options.OnlyLight);
+  const AreaSources sources(
+    scene, Compiled(Effect::Emission) && options.Emission, options.OnlyLight);
   if (sources.Size() == 0 || receivers.empty())
   {
     return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/AreaStage.h"
 
+#include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/visibility/PointStarts.h"
 
@@ -52,7 +53,8 @@ AreaStage::AreaStage(const Scene& scene, const OcclusionScene& occluders,
   , ViewOfBand(static_cast<std::size_t>(scene.Optics.Bands), 0)
   , Seed(seed)
 {
-  const bool panes = this->Blocking && transmission && occluders.HasPanes();
+  const bool panes =
+    Compiled(Effect::Transmission) && this->Blocking && transmission && occluders.HasPanes();
   std::vector<std::size_t> first; // band of each view
   for (std::size_t b = 0; b < this->ViewOfBand.size() && panes; ++b)
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/BeamLights.h"
 
+#include "radiometry/effects/CompiledEffects.h"
+
 #include <algorithm>
 
 namespace radiometry
@@ -28,7 +30,10 @@ BeamLights::BeamLights(const Scene& scene, const OcclusionScene& occluders,
     this->Outlines.push_back(
       this->Lines ? std::make_unique<Silhouettes>(scene, *this->Lines, source->GetLight()) : nullptr);
     this->Cutters.push_back(std::make_unique<ShadowCutter>(*source, this->Outlines.back().get(),
-      occluders, options.Transmission && occluders.HasPanes() ? scene.Optics.Bands : 0));
+      occluders,
+      Compiled(Effect::Transmission) && options.Transmission && occluders.HasPanes()
+        ? scene.Optics.Bands
+        : 0));
   }
   this->Tree = LightTree(this->Sources, scene.Optics.Bands);
 }

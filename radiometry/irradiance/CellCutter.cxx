@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/CellCutter.h"
 
+#include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/geometry/DividePolygon.h"
 #include "radiometry/irradiance/PieceMerging.h"
 #include "radiometry/irradiance/PolygonShaft.h"
@@ -65,7 +66,7 @@ public:
     : Geometry(scene)
     , Occluders(occluders)
     , Lines(occluders.Lines(scene, options.Threads, stage))
-    , Bands(options.Transmission && occluders.HasPanes()
+    , Bands(Compiled(Effect::Transmission) && options.Transmission && occluders.HasPanes()
           ? static_cast<std::size_t>(scene.Optics.Bands)
           : 0)
     , BackFaces(backFaces)

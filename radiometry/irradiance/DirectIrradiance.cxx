@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/DirectIrradiance.h"
 
+#include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/irradiance/AreaIrradiance.h"
 #include "radiometry/irradiance/BeamIrradiance.h"
 #include "radiometry/irradiance/PatchClusters.h"
@@ -32,21 +33,25 @@ bool AnyLight(const Scene& scene, const DirectOptions& options, const Kind& isOf
 }
 bool AnyBeam(const Scene& scene, const DirectOptions& options)
 {
-  return AnyLight(scene, options,
-    [](LightType type) { return type != LightType::Area && type != LightType::Environment; });
+  return AnyLight(scene, options, [](LightType type) {
+    return (Compiled(Effect::PointLights) && type == LightType::Point) ||
+      (Compiled(Effect::SpotLights) && type == LightType::Spot) ||
+      (Compiled(Effect::DirectionalLights) && type == LightType::Directional);
+  });
 }
 bool AnyArea(const Scene& scene, const DirectOptions& options)
 {
   const auto lit = [](const std::vector<double>& exitance) {
     return std::any_of(exitance.begin(), exitance.end(), [](double m) { return m > 0.0; });
   };
-  return AnyLight(scene, options, [](LightType type) { return type == LightType::Area; }) ||
-    (options.Emission &&
+  return (Compiled(Effect::AreaLights) &&
+           AnyLight(scene, options, [](LightType type) { return type == LightType::Area; })) ||
+    (Compiled(Effect::Emission) && options.Emission &&
       (lit(scene.Optics.EmittedExitance[0]) || lit(scene.Optics.EmittedExitance[1])));
 }
 bool AnySky(const Scene& scene, const DirectOptions& options)
 {
-  return options.Environment &&
+  return Compiled(Effect::Environment) && options.Environment &&
     AnyLight(scene, options, [](LightType type) { return type == LightType::Environment; });
 }
 
@@ -116,7 +121,8 @@ Components AddAll(const Scene& scene, const OcclusionScene& occluders, const Rec
     components.Rounds[k] = result.Rounds.size() - rounds;
   }
   const auto bands = static_cast<std::size_t>(result.Bands);
-  const bool ambient = !scene.GlobalAmbient.empty() && options.OnlyLight < 0;
+  const bool ambient = Compiled(Effect::GlobalAmbient) && !scene.GlobalAmbient.empty() &&
+    options.OnlyLight < 0;
   for (std::size_t i = 0; i < result.Irradiance.size() && ambient; ++i)
   {
     result.Irradiance[i] += scene.GlobalAmbient[i % bands];

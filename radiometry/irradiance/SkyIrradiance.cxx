@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/SkyIrradiance.h"
 
+#include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/irradiance/ClosedSurfaces.h"
 #include "radiometry/irradiance/OpenSides.h"
@@ -179,7 +180,8 @@ void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& r
   };
   const OpenIrradiance open(skies, receivers, bands, options.Threads, part(0.0, 0.1));
   const bool hides = options.Occlusion && !scene.Triangles.empty();
-  const bool panes = hides && options.Transmission && occluders.HasPanes();
+  const bool panes =
+    Compiled(Effect::Transmission) && hides && options.Transmission && occluders.HasPanes();
   std::unique_ptr<OpenSides> sides;
   if (hides)
   {

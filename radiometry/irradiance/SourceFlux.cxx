@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/SourceFlux.h"
 
+#include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/geometry/Quadrature.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace
 
 AxialDistribution MakeDistribution(const Light& light, bool spotShape)
 {
-  if (light.Type != LightType::Spot || !spotShape)
+  if (!Compiled(Effect::SpotShape) || light.Type != LightType::Spot || !spotShape)
   {
     return AxialDistribution(0.0, -1.0);
   }
@@ -30,10 +31,11 @@ AxialDistribution MakeDistribution(const Light& light, bool spotShape)
 SourceFlux::SourceFlux(const Light& light, bool spotShape, bool attenuation)
   : Source(light)
   , Distribution(MakeDistribution(light, spotShape))
-  , Web(light.Web && light.Type == LightType::Point
+  , Web(Compiled(Effect::CandelaWebs) && light.Web && light.Type == LightType::Point
         ? std::make_shared<WebFlux>(light.Web, light.Direction, light.Reference)
         : nullptr)
-  , Legacy(attenuation && light.Type != LightType::Directional && !light.InverseSquare())
+  , Legacy(Compiled(Effect::Attenuation) && attenuation &&
+      light.Type != LightType::Directional && !light.InverseSquare())
 {
 }
 
@@ -46,7 +48,8 @@ bool SourceFlux::InFront(const Vec3& point, const Vec3& normal) const
 double SourceFlux::Falloff(double r) const
 {
   const double* k = this->Source.Attenuation;
-  return this->Legacy ? 1.0 / (k[0] + r * (k[1] + r * k[2])) : 1.0 / (r * r);
+  return Compiled(Effect::Attenuation) && this->Legacy ? 1.0 / (k[0] + r * (k[1] + r * k[2]))
+                                                       : 1.0 / (r * r);
 }
 
 double SourceFlux::AtPoint(const Vec3& point, const Vec3& normal) const
@@ -69,8 +72,9 @@ double SourceFlux::AtPoint(const Vec3& point, const Vec3& normal) const
 
 double SourceFlux::Intensity(const Vec3& p, double r) const
 {
-  return this->Web ? this->Web->Intensity(p)
-                   : this->Distribution.IntensityAt(Versine(p / r, this->Source.Direction));
+  return Compiled(Effect::CandelaWebs) && this->Web
+    ? this->Web->Intensity(p)
+    : this->Distribution.IntensityAt(Versine(p / r, this->Source.Direction));
 }
 
 double SourceFlux::OnPolygon(
@@ -90,17 +94,18 @@ double SourceFlux::OnPolygon(
     return std::fmax(0.0, -0.5 * Dot(area2, this->Source.Direction));
   }
 
-  if (!this->Legacy && this->Web)
+  const bool legacy = Compiled(Effect::Attenuation) && this->Legacy;
+  if (Compiled(Effect::CandelaWebs) && !legacy && this->Web)
   {
     return std::fmax(0.0, this->Web->OnPolygon(polygon, count, error, this->Source.Position));
   }
-  if (!this->Legacy)
+  if (!legacy)
   {
     double rounding = 0.0;
     const double flux = std::fmax(0.0,
       AxialFlux(polygon, count, this->Source.Direction, this->Distribution, this->Source.Position,
         &rounding));
-    if (flux > 0.0 && !this->Distribution.Isotropic())
+    if (Compiled(Effect::SpotShape) && flux > 0.0 && !this->Distribution.Isotropic())
     {
       error += rounding;
       // Directions are rounded by eps: of a cone of half-angle a, that is eps/a of the flux.
@@ -128,7 +133,7 @@ double SourceFlux::Weighted(const Vec3& a, const Vec3& b, const Vec3& c) const
 {
   const Vec3 triangle[3] = { a, b, c };
   double rounding = 0.0;
-  const double flux = this->Web
+  const double flux = Compiled(Effect::CandelaWebs) && this->Web
     ? this->Web->OnPolygon(triangle, 3, rounding)
     : AxialFlux(triangle, 3, this->Source.Direction, this->Distribution);
   if (!(flux > 0.0))

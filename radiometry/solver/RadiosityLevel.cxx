@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/solver/RadiosityLevel.h"
 
+#include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/formfactor/GroupedOperator.h"
 #include "radiometry/solver/BalanceError.h"
 #include "radiometry/geometry/Sampling.h"
@@ -56,7 +57,8 @@ RadiosityContext::RadiosityContext(
   , Bands(static_cast<std::size_t>(scene.Optics.Bands))
   , Memory(options.MemoryLimit ? options.MemoryLimit : DefaultMemory)
 {
-  if (options.FollowsPaths() &&
+  if ((Compiled(Effect::SpecularTransport) || Compiled(Effect::Transmission)) &&
+    options.FollowsPaths() &&
     (options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo))
   {
     const auto paths = std::make_shared<const SpecularSurfaces>(

@@ -198,7 +198,10 @@ void OcclusionScene::Internals::OccludedPacket(
   RayQuery* queries, std::size_t count, std::uint8_t* hidden) const
 {
   alignas(64) int valid[PacketSize] = {};
-  RTCRay16 rays;
+  // Without AVX-512 Embree cuts the packet up and goes by the rays' intervals, not by `valid`: places
+  // that are not used hold empty ones.
+  RTCRay16 rays{};
+  std::fill_n(rays.tfar, PacketSize, -1.0f);
   double ends[PacketSize] = {};
   bool any = false;
   for (std::size_t k = 0; k < count; ++k)
