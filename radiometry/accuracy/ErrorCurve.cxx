@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/accuracy/ErrorCurve.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace radiometry
 {
+
+namespace
+{
+
+/// Of the longest run to the shortest: below it, times differ by chance.
+constexpr double LeastSpan = 1.5;
+
+} // namespace
 
 double PowerLaw::SecondsTo(double error) const
 {
@@ -37,6 +46,8 @@ PowerLaw FitPowerLaw(const ErrorCurve& curve)
   {
     return law;
   }
+  const auto [shortest, longest] = std::minmax_element(x.begin(), x.end());
+  const bool spread = *longest - *shortest >= std::log(LeastSpan);
   meanX /= static_cast<double>(x.size());
   meanY /= static_cast<double>(x.size());
   double xx = 0.0;
@@ -46,9 +57,9 @@ PowerLaw FitPowerLaw(const ErrorCurve& curve)
     xx += (x[k] - meanX) * (x[k] - meanX);
     xy += (x[k] - meanX) * (y[k] - meanY);
   }
-  const double exponent = xx > 0.0 ? xy / xx : 0.0;
+  const double exponent = spread ? xy / xx : 0.0;
   const double factor = std::exp(meanY - exponent * meanX);
-  law.Known = xx > 0.0 && std::isfinite(exponent) && std::isfinite(factor) && factor > 0.0;
+  law.Known = spread && std::isfinite(exponent) && std::isfinite(factor) && factor > 0.0;
   if (law.Known)
   {
     law.Exponent = exponent;

@@ -18,7 +18,7 @@ struct ErrorCurve
 struct PowerLaw
 {
   std::size_t Points = 0; // with seconds and error above 0
-  bool Known = false;     // of two or more different times; the rest is 0 otherwise
+  bool Known = false;     // their times differ by a factor of 1.5 or more; the rest is 0 otherwise
   double Factor = 0.0;    // error at one second
   double Exponent = 0.0;
 

@@ -36,6 +36,12 @@ double ErrorOf(const StatedValues& values, std::size_t i)
   return values.Errors.empty() ? 0.0 : values.Errors[i];
 }
 
+/// Of an error to the mean value; below 0 where it cannot be said.
+double Ratio(double error, double mean)
+{
+  return mean > 0.0 ? error / mean : (error > 0.0 ? -1.0 : 0.0);
+}
+
 /// The middle one, of an even number the mean of the two; 0 where there is none.
 double Median(std::vector<double>& numbers)
 {
@@ -102,7 +108,7 @@ StatedError SummarizeErrors(const StatedValues& values)
     found.MeanValue /= weights;
     found.Absolute /= weights;
   }
-  found.Relative = found.MeanValue > 0.0 ? found.Absolute / found.MeanValue : 0.0;
+  found.Relative = Ratio(found.Absolute, found.MeanValue);
   return found;
 }
 
@@ -139,8 +145,7 @@ Deviation Compare(const StatedValues& values, const StatedValues& reference)
   }
   found.Absolute /= weights;
   found.Coverage = static_cast<double>(covered) / static_cast<double>(found.Values);
-  const double root = std::sqrt(squares / weights);
-  found.Relative = mean > 0.0 ? root * weights / mean : 0.0;
+  found.Relative = Ratio(std::sqrt(squares / weights), mean / weights);
   found.Sharpness = ratios.empty() ? -1.0 : Median(ratios);
   return found;
 }

@@ -23,7 +23,8 @@ struct StatedError
 {
   std::size_t Values = 0; // that count
   double MeanValue = 0.0; // area-weighted mean of |value|
-  double Relative = 0.0;  // mean error over mean value; 0 where both are 0
+  double Relative = 0.0;  // mean error over mean value; 0 where both are 0, -1 (not known) where
+                          // only the value is
   double Absolute = 0.0;  // area-weighted mean error, in the unit of the quantity
   double Greatest = 0.0;
 };
@@ -37,7 +38,8 @@ StatedError SummarizeErrors(const StatedValues& values);
 struct Deviation
 {
   std::size_t Values = 0;
-  double Relative = 0.0;  // root of the area-weighted mean of (v - r)^2, over the mean of |r|
+  double Relative = 0.0;  // root of the area-weighted mean of (v - r)^2, over the mean of |r|; 0
+                          // where both are 0, -1 (not known) where only the mean is
   double Absolute = 0.0;  // area-weighted mean of |v - r|
   double Greatest = 0.0;
   double Coverage = 0.0;  // in [0, 1]

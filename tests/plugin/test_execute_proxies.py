@@ -51,7 +51,8 @@ def input_type(prop):
 def provide(prop, scene, owner=None):
     """A producer that suits this input property of class `owner`, or None to leave it empty."""
     name, kind = prop.get("name"), input_type(prop)
-    if owner == "vtkRadiometricStatistics":  # wants results
+    if owner == "vtkRadiometricStatistics" or (owner == "vtkAccuracyStudy" and name == "Input"):
+        # They want results.
         return simple.Irradiance(
             Input=scene, Lights=simple.PointLight(Position=[0.1, 0.2, 1.5], Intensity=10.0))
     if name == "Lights":
