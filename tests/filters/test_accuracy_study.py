@@ -308,7 +308,7 @@ def test_points_blocks_and_sensors():
 
 def test_other_filters():
     data = room(1.0, 2)
-    for kind, name, tolerances in ((vtkRadiosityFilter, "Radiosity", (0.2, 0.05)),
+    for kind, name, tolerances in ((vtkRadiosityFilter, "Radiosity", (0.3, 0.1)),
                                    (vtkRadianceFilter, "Radiance", (0.2, 0.1)),
                                    (vtkViewFactorFilter, "EnvironmentViewFactor", (0.2, 0.05))):
         f = kind()
@@ -330,12 +330,12 @@ def test_other_filters():
 
 
 def test_refining_from_what_is_there():
-    f = simulation(vtkRadiosityFilter, room(1.0, 3), LAMP)
-    s = study(f, (0.2, 0.02), Fresh=False)
+    f = simulation(vtkRadiosityFilter, room(1.0, 2), LAMP)
+    s = study(f, (0.3, 0.1), Fresh=False)
     s.Update()
     total, each = column(s, "TotalSeconds"), column(s, "Seconds")
     close(total, np.cumsum(each), 1e-12)
-    fresh = study(f, (0.2, 0.02), Repeats=2)
+    fresh = study(f, (0.3, 0.1), Repeats=2)
     fresh.Update()
     assert (column(fresh, "TotalSeconds") == column(fresh, "Seconds")).all()
 
