@@ -3,6 +3,7 @@
 
 #include "BandWavelengths.h"
 #include "PhotometricNames.h"
+#include "RunCostData.h"
 #include "SurfacePoints.h"
 #include "radiometry/imaging/ColorMatching.h"
 #include "radiometry/scene/ArrayNames.h"
@@ -25,9 +26,7 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <numeric>
-#include <utility>
 
 namespace names = radiometry::names;
 
@@ -317,21 +316,7 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   AddStrings(data, "RadiometryOptions", options);
   AddStrings(data, "RadiometryOutcome", { result.Outcome });
   AddStrings(data, names::EffectPlan, ExplainEffects(result));
-  const std::pair<const char*, double> costs[] = { { "Seconds", result.Cost.Seconds },
-    { "PredictedSeconds", result.Cost.PredictedSeconds },
-    { "PredictedAt", result.Cost.PredictedAt },
-    { "Samples", static_cast<double>(result.Cost.Samples) },
-    { "MemoryMiB", static_cast<double>(result.Cost.Bytes) / 1048576.0 } };
-  vtkNew<vtkDoubleArray> cost;
-  cost->SetName("RadiometryCost");
-  cost->SetNumberOfComponents(static_cast<int>(std::size(costs)));
-  cost->SetNumberOfTuples(1);
-  for (int k = 0; k < static_cast<int>(std::size(costs)); ++k)
-  {
-    cost->SetComponentName(k, costs[k].first);
-    cost->SetTypedComponent(0, k, costs[k].second);
-  }
-  data->AddArray(cost);
+  AddRunCost(result.Cost, data);
   if (!result.Method.empty())
   {
     AddStrings(data, "RadiometryMethod", { result.Method });

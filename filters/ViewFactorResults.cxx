@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactorResults.h"
 
+#include "RunCostData.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 
@@ -197,6 +198,7 @@ void ViewFactorResults::AddFieldData(vtkDataObject* object) const
   AddString(data, "RadiometryOptions", "vtkViewFactorFilter: " + this->Options);
   AddString(data, "RadiometryOutcome", this->Result.Outcome);
   AddString(data, "RadiometryMethod", this->Result.Method);
+  AddRunCost(this->Result.Cost, data);
   AddNumber(data, "ClosureDefectBefore", this->Result.ClosureBefore);
   AddNumber(data, "ClosureDefectAfter", this->Result.ClosureAfter);
   AddNumber(data, "ReciprocityDefectBefore", this->Result.ReciprocityBefore);

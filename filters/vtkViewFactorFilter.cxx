@@ -33,6 +33,7 @@ vtkViewFactorFilter::~vtkViewFactorFilter()
 void vtkViewFactorFilter::Compute(const ControllerCommunicator* ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const radiometry::ConvergenceRecord clock;
   this->CheckLimits();
   const radiometry::Vec3 up{ this->SkyUp[0], this->SkyUp[1], this->SkyUp[2] };
   CheckRange("SkyUp", radiometry::Length(up), 1e-300, std::numeric_limits<double>::max(),
@@ -56,7 +57,9 @@ void vtkViewFactorFilter::Compute(const ControllerCommunicator* ranks,
   radiometry::ViewFactorOptions options;
   options.RelativeTolerance = this->RelativeTolerance;
   options.AbsoluteTolerance = this->AbsoluteTolerance;
-  options.TimeBudget = this->TimeBudget;
+  options.TimeBudget =
+    this->TimeBudget > 0.0 ? std::max(1e-9, this->TimeBudget - clock.Elapsed()) : 0.0;
+  options.PilotOnly = this->PilotOnly;
   options.MemoryLimit = this->MemoryBytes(ranks);
   options.Method = static_cast<radiometry::ViewFactorMethod>(this->Method);
   options.Occlusion = this->Occlusion != OFF;
@@ -65,9 +68,15 @@ void vtkViewFactorFilter::Compute(const ControllerCommunicator* ranks,
   options.Up = up;
   options.Threads = ThreadsOfRank(ranks, this->NumberOfThreads);
   options.Ranks = ranks;
-  FilterMonitor monitor(this);
+  FilterMonitor monitor(this, &this->PredictedSeconds);
   const radiometry::ViewFactorResult result =
     radiometry::ComputeViewFactors(scene, patches.OfCell, patches.Ids.size(), options, &monitor);
+  this->PredictedSeconds = result.Cost.PredictedSeconds;
+  this->ElapsedSeconds = clock.Elapsed();
+  if (this->PilotOnly)
+  {
+    return;
+  }
 
   std::ostringstream text;
   text << "PatchArray=" << (name.empty() ? "(every cell)" : name)

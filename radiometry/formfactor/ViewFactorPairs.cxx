@@ -381,18 +381,18 @@ void ViewFactorPairs::MakeOwnItems(std::int32_t a, std::vector<Item>& items) con
   this->MakeItems(node.Left, node.Right, true, items);
 }
 
-/// This rank's share of the items: every so-manieth, as their costs change slowly along the list.
-void ViewFactorPairs::RunItems(const std::vector<Item>& items, const StageProgress& stage,
-  std::vector<Part>& parts, std::vector<ExchangeStratum>& strata)
+/// This rank's share of the items: every so-manieth, as their costs change slowly along the list. A
+/// first share of those, as evenly spread, tells the time of all.
+bool ViewFactorPairs::RunItems(const std::vector<Item>& items, const StageProgress& stage,
+  std::vector<Part>& parts, std::vector<ExchangeStratum>& strata, const Forecast& forecast)
 {
+  constexpr std::size_t stride = 16;
   const auto step = static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Size() : 1);
   const auto rank = static_cast<std::size_t>(this->Options.Ranks ? this->Options.Ranks->Rank() : 0);
   const std::size_t own = (items.size() + step - 1 - rank) / step;
   std::vector<std::vector<Part>> partsOf(own);
   std::vector<std::vector<ExchangeStratum>> strataOf(own);
-  ParallelFor(
-    own, this->Options.Threads, stage,
-    [&](std::size_t k) {
+  const auto run = [&](std::size_t k) {
       Worker worker(*this);
       worker.Run(items[k * step + rank]);
       this->PairCount += worker.Pairs;
@@ -413,8 +413,22 @@ void ViewFactorPairs::RunItems(const std::vector<Item>& items, const StageProgre
       }
       partsOf[k] = std::move(worker.Parts);
       strataOf[k] = std::move(worker.Strata);
-    },
-    1e-3);
+    };
+  const std::size_t pilot = (own + stride - 1) / stride;
+  StageProgress first = stage, second = stage;
+  first.End = second.Begin = stage.Begin + (stage.End - stage.Begin) / stride;
+  const double begin = this->Clock->Elapsed();
+  ParallelFor(
+    pilot, this->Options.Threads, first, [&](std::size_t k) { run(k * stride); }, 1e-3);
+  const double seconds = this->Clock->Elapsed() - begin;
+  if (forecast &&
+    !forecast(own == 0 ? 0.0 : seconds * static_cast<double>(own - pilot) / static_cast<double>(pilot)))
+  {
+    return false;
+  }
+  ParallelFor(
+    own - pilot, this->Options.Threads, second,
+    [&](std::size_t k) { run(k + k / (stride - 1) + 1); }, 1e-3);
   for (std::size_t k = 0; k < own; ++k)
   {
     for (Part& part : partsOf[k])
@@ -427,6 +441,7 @@ void ViewFactorPairs::RunItems(const std::vector<Item>& items, const StageProgre
     partsOf[k] = {};
     strataOf[k] = {};
   }
+  return true;
 }
 
 /// One row for each two groups, of all ranks' parts in the order of the items.
@@ -465,9 +480,11 @@ void ViewFactorPairs::MakeRows(std::vector<Part>& parts, std::vector<ExchangeStr
 }
 
 std::vector<GroupExchange> ViewFactorPairs::Compute(
-  const StageProgress& stage, ConvergenceRecord& record)
+  const StageProgress& stage, ConvergenceRecord& record, const Forecast& forecast)
 {
   this->Clock = &record;
+  // Without samples the pairs are all; else the first round of samples tells more.
+  const bool sampled = this->Between || this->Hierarchical;
   std::vector<Item> items;
   for (std::size_t g = 0; g < this->Tree.Groups(); ++g)
   {
@@ -482,10 +499,16 @@ std::vector<GroupExchange> ViewFactorPairs::Compute(
   {
     std::vector<Part> parts;
     std::vector<ExchangeStratum> found;
-    this->RunItems(items, first, parts, found);
+    if (!this->RunItems(items, first, parts, found, sampled ? Forecast() : forecast))
+    {
+      return {};
+    }
     this->MakeRows(parts, found, rows, strata);
   }
-  this->Refine(rows, strata, second, record);
+  if (!this->Refine(rows, strata, second, record, sampled ? forecast : Forecast()))
+  {
+    return {};
+  }
   if (this->Options.Ranks)
   {
     std::int64_t counts[] = { this->PairCount, this->RayCount, this->Late ? 1 : 0 };

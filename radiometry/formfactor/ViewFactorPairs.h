@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace radiometry
@@ -57,8 +58,11 @@ public:
   ViewFactorPairs(const PatchTree& tree, const OcclusionScene& occluders, const Blockers* blockers,
     const ViewFactorOptions& options, bool hierarchical, double pairTolerance);
 
+  /// Told once how many seconds the rest is expected to take; false: to end there, without rows.
+  using Forecast = std::function<bool(double seconds)>;
   /// Computes; rows by I, then J. Continues `record`.
-  std::vector<GroupExchange> Compute(const StageProgress& stage, ConvergenceRecord& record);
+  std::vector<GroupExchange> Compute(
+    const StageProgress& stage, ConvergenceRecord& record, const Forecast& forecast);
 
   std::int64_t Pairs() const { return this->PairCount; }
   std::int64_t Rays() const { return this->RayCount; }
@@ -110,17 +114,18 @@ private:
   void Begin(
     const GroupExchange& row, double scale, ExchangeStratum* strata, std::size_t count) const;
   /// Sets what a row has got, and what its strata are to sample in the next round; true when there
-  /// is none.
-  bool Plan(
-    GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count, bool late) const;
-  void Allot(double goal, double scale, ExchangeStratum* strata, std::size_t count) const;
-  void RunItems(const std::vector<Item>& items, const StageProgress& stage,
-    std::vector<Part>& parts, std::vector<ExchangeStratum>& strata);
+  /// is none. Adds to `ideal` (may be null) the points of each sequence that would do.
+  bool Plan(GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count, bool late,
+    double* ideal = nullptr) const;
+  /// Returns the points of each sequence that would do.
+  double Allot(double goal, double scale, ExchangeStratum* strata, std::size_t count) const;
+  bool RunItems(const std::vector<Item>& items, const StageProgress& stage,
+    std::vector<Part>& parts, std::vector<ExchangeStratum>& strata, const Forecast& forecast);
   void MakeRows(std::vector<Part>& parts, std::vector<ExchangeStratum>& found,
     std::vector<Row>& rows, std::vector<ExchangeStratum>& strata) const;
   void SampleAll(std::vector<ExchangeStratum>& strata, const StageProgress& stage);
-  void Refine(std::vector<Row>& rows, std::vector<ExchangeStratum>& strata,
-    const StageProgress& stage, ConvergenceRecord& record);
+  bool Refine(std::vector<Row>& rows, std::vector<ExchangeStratum>& strata,
+    const StageProgress& stage, ConvergenceRecord& record, const Forecast& forecast);
   bool TimeIsUp() const;
 
   const PatchTree& Tree;
@@ -132,6 +137,9 @@ private:
   std::atomic<std::int64_t> PairCount{ 0 }, RayCount{ 0 };
   std::atomic<std::int64_t> Bytes{ 0 };
   mutable std::atomic<bool> Late{ false };
+  /// By how much a round of samples may be larger than the one before.
+  static constexpr double LeastGrowth = 2.0, GreatestGrowth = 8.0;
+  double Growth = GreatestGrowth;
   const ConvergenceRecord* Clock = nullptr;
 };
 

@@ -269,7 +269,7 @@ void ViewFactorPairs::Begin(
 }
 
 bool ViewFactorPairs::Plan(
-  GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count, bool late) const
+  GroupExchange& row, double known, ExchangeStratum* strata, std::size_t count, bool late, double* ideal) const
 {
   const double scale = row.I == row.J ? 2.0 : 1.0;
   double value = 0.0;
@@ -312,12 +312,16 @@ bool ViewFactorPairs::Plan(
     this->Late = true;
     return true;
   }
-  this->Allot(left, scale, strata, count);
+  const double wanted = this->Allot(left, scale, strata, count);
+  if (ideal)
+  {
+    *ideal += wanted;
+  }
   return false;
 }
 
 /// Points where they help most: in proportion to the deviation of one of them.
-void ViewFactorPairs::Allot(
+double ViewFactorPairs::Allot(
   double goal, double scale, ExchangeStratum* strata, std::size_t count) const
 {
   const double wanted = goal / (scale * 2.0);
@@ -328,7 +332,7 @@ void ViewFactorPairs::Allot(
     points += strata[k].Done;
   }
   const double ideal = deviations * deviations / (wanted * wanted);
-  const double total = std::clamp(ideal, 2.0 * points, 8.0 * points);
+  const double total = std::clamp(ideal, LeastGrowth * points, this->Growth * points);
   for (std::size_t k = 0; k < count; ++k)
   {
     ExchangeStratum& s = strata[k];
@@ -343,6 +347,7 @@ void ViewFactorPairs::Allot(
       s.Wanted *= 2;
     }
   }
+  return ideal;
 }
 
 /// All that are to be sampled, each rank its share.
@@ -380,8 +385,8 @@ void ViewFactorPairs::SampleAll(std::vector<ExchangeStratum>& strata, const Stag
   }
 }
 
-void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum>& strata,
-  const StageProgress& stage, ConvergenceRecord& record)
+bool ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum>& strata,
+  const StageProgress& stage, ConvergenceRecord& record, const Forecast& forecast)
 {
   std::vector<double> known;
   known.reserve(rows.size());
@@ -395,12 +400,26 @@ void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum
     StageProgress part = stage;
     part.Begin = stage.Begin + (stage.End - stage.Begin) * round / rounds;
     part.End = stage.Begin + (stage.End - stage.Begin) * (round + 1) / rounds;
+    const double begin = record.Elapsed();
+    double points = 0.0;
+    for (const ExchangeStratum& stratum : strata)
+    {
+      points += stratum.Wanted;
+    }
     this->SampleAll(strata, part);
-    double late = this->TimeIsUp() ? 1.0 : 0.0;
+    const double seconds = record.Elapsed() - begin;
+    double ideal = 0.0;
+    // Fresh points at least twice as many, or none.
+    double times[2] = { record.Elapsed(), seconds };
     if (this->Options.Ranks)
     {
-      this->Options.Ranks->Largest(&late, 1);
+      this->Options.Ranks->Largest(times, 2);
     }
+    const double left = this->Options.TimeBudget - times[0];
+    this->Growth = this->Options.TimeBudget > 0.0
+      ? std::min(GreatestGrowth, left / std::max(times[1], 1e-9))
+      : GreatestGrowth;
+    const bool late = this->Growth < LeastGrowth;
     bool all = true;
     double value = 0.0, error = 0.0;
     for (std::size_t r = 0; r < rows.size(); ++r)
@@ -409,7 +428,7 @@ void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum
       if (!row.Met)
       {
         row.Met =
-          this->Plan(row.Exchange, known[r], strata.data() + row.First, row.Strata, late > 0.0);
+          this->Plan(row.Exchange, known[r], strata.data() + row.First, row.Strata, late, &ideal);
         all = all && row.Met;
       }
       value += row.Exchange.Value;
@@ -418,9 +437,15 @@ void ViewFactorPairs::Refine(std::vector<Row>& rows, std::vector<ExchangeStratum
     record.Add(round == 0 ? "pairs" : "visibility", value > 0.0 ? error / value : 0.0,
       rows.empty() ? 0.0 : error / static_cast<double>(rows.size()),
       this->PairCount + this->RayCount);
+    // Rounds of fresh points, each eight times the one before: a seventh on top of the last.
+    if (round == 0 && forecast &&
+      !forecast(points > 0.0 ? 8.0 / 7.0 * ideal * seconds / points : 0.0))
+    {
+      return false;
+    }
     if (all || round + 1 == rounds)
     {
-      return;
+      return true;
     }
   }
 }

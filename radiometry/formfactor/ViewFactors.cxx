@@ -41,21 +41,27 @@ private:
   {
     return { this->Listener, begin, end, name };
   }
-  /// The same on all ranks.
-  bool TimeIsUp() const
+  /// How much of a round that is expected to take so many seconds there is time for; all without a
+  /// budget. The same on all ranks.
+  double Affordable(double seconds) const
   {
-    double late =
-      Options.TimeBudget > 0.0 && this->Result.Convergence.Elapsed() > Options.TimeBudget ? 1.0
-                                                                                          : 0.0;
+    double times[2] = { this->Result.Convergence.Elapsed(), seconds };
     if (Options.Ranks)
     {
-      Options.Ranks->Largest(&late, 1);
+      Options.Ranks->Largest(times, 2);
     }
-    return late > 0.0;
+    return Options.TimeBudget > 0.0
+      ? std::clamp((Options.TimeBudget - times[0]) / std::max(times[1], 1e-9), 0.0, 1.0)
+      : 1.0;
   }
+  /// More rays of the groups, as many as there is time for; false: there is none.
+  bool TraceMore(std::vector<std::uint32_t>& wanted, double raySeconds, const StageProgress& stage);
   void ChooseMethod();
-  void ByPairs();
-  void ByRays();
+  /// Says how long all will take; false: no more is wanted.
+  bool Foretell(double seconds);
+  double EnvironmentSeconds() const;
+  bool ByPairs();
+  bool ByRays();
   void RowsFromHits();
   void FindOpenness();
   void LookAround();
@@ -89,6 +95,7 @@ private:
   bool Hierarchical = false, ByHits = false, Late = false;
   double PairTolerance = 1e-6;
   double WorstUnexplained = 0.0;
+  double RaySeconds = 0.0; // of one ray of the environment
   ViewFactorResult Result;
 };
 
@@ -165,13 +172,88 @@ void Run::ChooseMethod()
     pairs <= 4e3 ? std::min(1e-9, asked) : (pairs <= 3e4 ? std::min(1e-6, asked) : asked);
 }
 
-void Run::ByPairs()
+bool Run::TraceMore(
+  std::vector<std::uint32_t>& wanted, double raySeconds, const StageProgress& stage)
+{
+  constexpr double worthwhile = 0.1;
+  double rays = 0.0;
+  for (std::size_t g = 0; g < wanted.size(); ++g)
+  {
+    const auto place = static_cast<std::int32_t>(g);
+    rays += std::max(0.0, static_cast<double>(wanted[g]) - Rays->Rays(place));
+  }
+  const double share = this->Affordable(rays * raySeconds);
+  Late = Late || share < 1.0;
+  if (share < worthwhile)
+  {
+    return false;
+  }
+  for (std::size_t g = 0; g < wanted.size() && share < 1.0; ++g)
+  {
+    const double done = Rays->Rays(static_cast<std::int32_t>(g));
+    wanted[g] = static_cast<std::uint32_t>(done + share * std::max(0.0, wanted[g] - done));
+  }
+  Rays->Trace(wanted, stage);
+  return true;
+}
+
+/// What the rays still have to count, from the errors of the first ones.
+double Run::EnvironmentSeconds() const
+{
+  double rays = 0.0;
+  for (std::size_t g = 0; g < Tree.Groups(); ++g)
+  {
+    const auto place = static_cast<std::int32_t>(g);
+    double ratio = 0.0;
+    const auto count = [&](const RayShare& share) {
+      ratio = std::max(ratio, share.Error / std::max(this->Goal(share.Value), 1e-300));
+    };
+    // What the patches leave is known from the pairs: of one kind it needs no rays.
+    const RayShare sky = Rays->Share(place, ViewFactorRays::Sky);
+    const RayShare ground = Rays->Share(place, ViewFactorRays::Ground);
+    const RayShare blocked = Rays->Share(place, ViewFactorRays::Blocked);
+    const int kinds = (sky.Value > 0.0) + (ground.Value > 0.0) + (blocked.Value > 0.0);
+    if (kinds > 1 && (MayBlock[g] || MaySee[g]))
+    {
+      count(sky);
+      count(ground);
+    }
+    double wanted = FirstRays;
+    while (wanted < FirstRays * ratio * ratio && wanted < MostRays)
+    {
+      wanted *= 2.0;
+    }
+    rays += wanted - std::min<double>(wanted, Rays->Rays(place));
+  }
+  return rays * this->RaySeconds;
+}
+
+bool Run::Foretell(double seconds)
+{
+  const double now = Result.Convergence.Elapsed();
+  double whole = now + seconds + this->EnvironmentSeconds();
+  if (Options.TimeBudget > 0.0)
+  {
+    whole = std::min(whole, std::max(now, Options.TimeBudget));
+  }
+  Result.Cost.PredictedAt = now;
+  Result.Cost.PredictedSeconds = whole;
+  if (this->Listener)
+  {
+    this->Listener->Predicted(whole);
+  }
+  return !Options.PilotOnly;
+}
+
+bool Run::ByPairs()
 {
   ViewFactorPairs pairs(Tree, Occluders, Between.get(), Options, Hierarchical, PairTolerance);
-  Rows = pairs.Compute(this->Stage(0.05, 0.7, "view factors"), Result.Convergence);
+  Rows = pairs.Compute(this->Stage(0.05, 0.7, "view factors"), Result.Convergence,
+    [this](double seconds) { return this->Foretell(seconds); });
   Result.Pairs = pairs.Pairs();
   Result.Rays += pairs.Rays();
   Late = Late || pairs.OutOfTime();
+  return !Options.PilotOnly;
 }
 
 /// The symmetric exchange from what both ends' rays met, by the number of rays a square metre.
@@ -222,29 +304,59 @@ void Run::RowsFromHits()
   }
 }
 
-void Run::ByRays()
+bool Run::ByRays()
 {
   std::vector<std::uint32_t> wanted(Tree.Groups(), 4096);
+  double raySeconds = this->RaySeconds;
   const int rounds = 11;
   for (int round = 0; round < rounds; ++round)
   {
-    Rays->Trace(
-      wanted, this->Stage(0.05 + 0.6 * round / rounds, 0.05 + 0.6 * (round + 1) / rounds, "rays"));
+    const double begin = Result.Convergence.Elapsed();
+    const auto before = static_cast<double>(Rays->Total());
+    if (!this->TraceMore(wanted, raySeconds,
+          this->Stage(0.05 + 0.6 * round / rounds, 0.05 + 0.6 * (round + 1) / rounds, "rays")))
+    {
+      return true;
+    }
+    const double traced = static_cast<double>(Rays->Total()) - before;
+    raySeconds = traced > 0.0 ? (Result.Convergence.Elapsed() - begin) / traced : raySeconds;
     this->RowsFromHits();
     double value = 0.0, error = 0.0;
     std::vector<std::uint8_t> more(Tree.Groups(), 0);
+    std::vector<double> ratio(Tree.Groups(), 0.0); // of error and goal, the greatest
     for (const GroupExchange& row : Rows)
     {
       const double least = std::min(Areas[row.I], Areas[row.J]);
-      if (row.Error() > least * this->Goal(row.Value / least))
+      const double goal = least * this->Goal(row.Value / least);
+      if (row.Error() > goal)
       {
         more[row.I] = more[row.J] = 1;
+        const double much = row.Error() / std::max(goal, 1e-300);
+        ratio[row.I] = std::max(ratio[row.I], much);
+        ratio[row.J] = std::max(ratio[row.J], much);
       }
       value += row.Value;
       error += row.Error();
     }
     Result.Convergence.Add("rays", value > 0.0 ? error / value : 0.0,
       Rows.empty() ? 0.0 : error / static_cast<double>(Rows.size()), Rays->Total());
+    if (round == 0)
+    {
+      double rays = 0.0;
+      for (std::size_t g = 0; g < ratio.size(); ++g)
+      {
+        double then = wanted[g];
+        while (then < wanted[g] * ratio[g] * ratio[g] && then < MostHits)
+        {
+          then *= 2.0;
+        }
+        rays += then - wanted[g];
+      }
+      if (!this->Foretell(rays * raySeconds))
+      {
+        return false;
+      }
+    }
     bool any = false;
     for (std::size_t g = 0; g < more.size(); ++g)
     {
@@ -254,16 +366,12 @@ void Run::ByRays()
         any = true;
       }
     }
-    if (!any)
+    if (!any || Late)
     {
-      return;
-    }
-    if (this->TimeIsUp())
-    {
-      Late = true;
-      return;
+      return true;
     }
   }
+  return true;
 }
 
 /// Which groups have anything ahead of them, or a side that belongs to no group.
@@ -285,7 +393,7 @@ void Run::FindOpenness()
     normals[t] = Normalized(AreaNormal2(Surface.TriangleAt(t)));
   }
   const BoxTree tree(boxes);
-  ParallelFor(n, Options.Threads, this->Stage(0.7, 0.72, "environment"), [&](std::size_t g) {
+  ParallelFor(n, Options.Threads, this->Stage(0.0, 0.02, "environment"), [&](std::size_t g) {
     const auto& node = Tree[Tree.Root(static_cast<std::int32_t>(g))];
     double high = 0.0;
     for (std::int32_t e = node.Begin; e < node.End; ++e)
@@ -403,13 +511,16 @@ void Run::LookAround()
   {
     SumErrors[g] = truncation[g] + std::sqrt(sampling[g]);
   }
-  this->FindOpenness();
   std::vector<std::uint32_t> wanted(Tree.Groups(), FirstRays);
   const int rounds = 8;
   for (int round = 0; round < rounds; ++round)
   {
-    Rays->Trace(wanted,
-      this->Stage(0.72 + 0.25 * round / rounds, 0.72 + 0.25 * (round + 1) / rounds, "environment"));
+    if (!this->TraceMore(wanted, this->RaySeconds,
+          this->Stage(
+            0.7 + 0.27 * round / rounds, 0.7 + 0.27 * (round + 1) / rounds, "environment")))
+    {
+      break;
+    }
     bool any = false;
     double value = 0.0, error = 0.0;
     for (std::size_t g = 0; g < wanted.size(); ++g)
@@ -427,13 +538,8 @@ void Run::LookAround()
     Result.Convergence.Add("environment", value > 0.0 ? error / value : 0.0,
       wanted.empty() ? 0.0 : error / static_cast<double>(wanted.size()),
       Result.Pairs + Result.Rays + Rays->Total());
-    if (!any)
+    if (!any || Late)
     {
-      break;
-    }
-    if (this->TimeIsUp())
-    {
-      Late = true;
       break;
     }
   }
@@ -569,10 +675,20 @@ ViewFactorResult Run::Compute()
   {
     this->ChooseMethod();
     Rays = std::make_unique<ViewFactorRays>(Tree, Occluders, GroupOfSide, Options, ByHits);
-    ByHits ? this->ByRays() : this->ByPairs();
-    this->LookAround();
-    this->Correct();
-    this->Report();
+    this->FindOpenness();
+    const double begin = Result.Convergence.Elapsed();
+    Rays->Trace(std::vector<std::uint32_t>(Tree.Groups(), FirstRays),
+      this->Stage(0.02, 0.05, "environment"));
+    this->RaySeconds = (Result.Convergence.Elapsed() - begin) /
+      static_cast<double>(std::max<std::int64_t>(1, Rays->Total()));
+    if (ByHits ? this->ByRays() : this->ByPairs())
+    {
+      this->LookAround();
+      this->Correct();
+      this->Report();
+    }
+    Result.Cost.Seconds = Result.Convergence.Elapsed();
+    Result.Cost.Samples = Result.Pairs + Result.Rays;
     return std::move(Result);
   }
   Result.Areas.assign(Patches, 0.0);

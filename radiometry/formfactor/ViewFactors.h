@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/accuracy/RunCost.h"
 #include "radiometry/scene/Communicator.h"
 #include "radiometry/scene/Monitor.h"
 #include "radiometry/scene/Scene.h"
@@ -36,6 +37,7 @@ struct ViewFactorOptions
   Vec3 Up{ 0.0, 0.0, 1.0 };
   int Threads = 0;
   std::uint64_t Seed = 0;
+  bool PilotOnly = false; // end, without rows, where the cost of the run is known
   const Communicator* Ranks = nullptr; // that share the work; null: this process alone
 };
 
@@ -76,6 +78,7 @@ struct ViewFactorResult
   std::string Outcome;          // what ended the run, and what the user should know
   std::int64_t Pairs = 0;       // of triangles' sides that face each other, each once
   std::int64_t Rays = 0;
+  RunCost Cost;
   ConvergenceRecord Convergence;
 };
 
@@ -87,6 +90,8 @@ struct ViewFactorResult
 ///           with sampled visibility where something does; far clusters by samples of both ends,
 ///           allotted where they reduce a factor's error most; the environment by rays
 ///   Error   covers 95 %: bounds of truncation and the spread of four independent sequences
+///   Predicts where nothing stands between, after every 16th pair of nodes; else after the first round
+///           of samples
 ///   Cost    O(pairs of triangles) Dense; O(n) and samples Hierarchical; samples MonteCarlo
 ///   Fails   InputError{"MemoryLimit"}
 ViewFactorResult ComputeViewFactors(const Scene& scene,
