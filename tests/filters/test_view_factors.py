@@ -424,6 +424,19 @@ def test_field_data_explain_the_result():
     close(strings(convergence, "Seconds"), sorted(strings(convergence, "Seconds")))
 
 
+def test_predicts_its_time_and_keeps_its_budget():
+    data, occluder = half_blocked(4)
+    f = view_factors(tagged(data, np.repeat([0, 1], 16)), occluder, PatchArray="Patch",
+                     RelativeTolerance=1e-5, AbsoluteTolerance=0, TimeBudget=1)
+    assert f.PredictSeconds() > 0
+    assert f.GetOutputDataObject(1).GetNumberOfRows() == 0  # a pilot has no results
+    f.Update()
+    cost = field(f, "RadiometryCost")[0]
+    assert cost[2] < cost[0] and 0.2 < cost[1] / cost[0] < 5, cost  # a loaded machine
+    assert f.GetPredictedSeconds() == cost[1]
+    assert f.GetElapsedSeconds() < 2.5, cost  # rounds that would not fit are not begun
+
+
 def test_time_budget_ends_the_run_and_says_so():
     data, occluder = half_blocked(4)
     f = view_factors(tagged(data, np.repeat([0, 1], 16)), occluder, PatchArray="Patch",
