@@ -4,7 +4,6 @@
 #include "radiometry/accuracy/ErrorCurve.h"
 
 #include "vtkDoubleArray.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -76,26 +75,32 @@ class Rows
 public:
   explicit Rows(vtkTable* table)
     : Figure(AddColumn<vtkStringArray>(table, "Figure"))
+    , Relation(AddColumn<vtkStringArray>(table, "Relation"))
     , Value(AddColumn<vtkDoubleArray>(table, "Value"))
-    , Known(AddColumn<vtkIntArray>(table, "Known"))
     , Unit(AddColumn<vtkStringArray>(table, "Unit"))
     , Note(AddColumn<vtkStringArray>(table, "Note"))
   {
   }
-  void Add(const std::string& figure, double value, bool known, const char* unit,
+  void Add(const std::string& figure, const char* relation, double value, const char* unit,
     const std::string& note) const
   {
     this->Figure->InsertNextValue(figure);
+    this->Relation->InsertNextValue(relation);
     this->Value->InsertNextValue(value);
-    this->Known->InsertNextValue(known ? 1 : 0);
     this->Unit->InsertNextValue(unit);
     this->Note->InsertNextValue(note);
   }
 
+  /// A number that is not known is -1.
+  void AddIf(bool known, const std::string& figure, double value, const std::string& note) const
+  {
+    this->Add(figure, known ? "=" : "unknown", known ? value : NotKnown, "1", note);
+  }
+
 private:
   vtkStringArray* Figure;
+  vtkStringArray* Relation;
   vtkDoubleArray* Value;
-  vtkIntArray* Known;
   vtkStringArray* Unit;
   vtkStringArray* Note;
 };
@@ -117,7 +122,9 @@ void AddSlope(const Rows& rows, const std::string& which, const radiometry::Erro
   {
     note = "not known: the runs took nearly the same time";
   }
-  rows.Add("Slope of the " + which + " error", law.Exponent, law.Known, "1", note);
+  // A slope may be -1: what is not known is 0, as an error that does not fall.
+  rows.Add(
+    "Slope of the " + which + " error", law.Known ? "=" : "unknown", law.Exponent, "1", note);
 }
 
 void AddArrivals(const Rows& rows, const std::string& which, const radiometry::ErrorCurve& curve)
@@ -126,28 +133,27 @@ void AddArrivals(const Rows& rows, const std::string& which, const radiometry::E
   {
     const std::string figure = "Seconds to " + Percent(target) + " " + which + " error";
     const radiometry::Arrival arrival = radiometry::ArriveAt(target, curve);
-    std::string note;
     if (arrival.Kind == radiometry::Arrival::Between)
     {
-      note = "interpolated between runs";
+      rows.Add(figure, "=", arrival.Seconds, "s", "interpolated between runs");
     }
     else if (arrival.Kind == radiometry::Arrival::Already)
     {
-      note = "at most: the first run has " + Percent(curve.Errors.front());
+      rows.Add(figure, "<=", arrival.Seconds, "s",
+        "the first run already has " + Percent(curve.Errors.front()));
     }
     else if (curve.Errors.empty())
     {
-      note = "not known: no run has a " + which + " error";
+      rows.Add(figure, "unknown", NotKnown, "s", "no run has a " + which + " error");
     }
     else
     {
-      note = "> " + Text(curve.Seconds.back()) + " s: the last run has " +
-        Percent(curve.Errors.back());
+      const double longest = *std::max_element(curve.Seconds.begin(), curve.Seconds.end());
       const double later = radiometry::FitPowerLaw(curve).SecondsTo(target);
-      note += later > curve.Seconds.back() ? "; by the slope about " + Text(later) + " s" : "";
+      rows.Add(figure, ">", longest, "s",
+        "the last run still has " + Percent(curve.Errors.back()) +
+          (later > longest ? "; by the slope about " + Text(later) + " s" : ""));
     }
-    rows.Add(
-      figure, arrival.Seconds, arrival.Kind == radiometry::Arrival::Between, "s", note);
   }
 }
 
@@ -164,10 +170,10 @@ void AddPredictions(const Rows& rows, const StudyRecord& study)
         run.Seconds <= 2.0 * run.PredictedSeconds;
     }
   }
-  rows.Add("Runs predicted within a factor of two",
-    said > 0 ? static_cast<double>(within) / static_cast<double>(said) : NotKnown, said > 0, "1",
-    std::to_string(within) + " of " + std::to_string(said) + " that said beforehand how long they "
-                                                             "would take");
+  rows.AddIf(said > 0, "Runs predicted within a factor of two",
+    static_cast<double>(within) / static_cast<double>(std::max<std::size_t>(said, 1)),
+    std::to_string(within) + " of " + std::to_string(said) +
+      " that said beforehand how long they would take");
 }
 
 void AddFloat(const Rows& rows, const StudyRecord::Rounding& rounding)
@@ -183,15 +189,13 @@ void AddFloat(const Rows& rows, const StudyRecord::Rounding& rounding)
                "precision"
              : "not known: every value is 0");
   const std::string storage = "of the finest run's values if they were stored as float";
-  rows.Add("Float input: greatest relative difference", known ? rounding.Run.Greatest : NotKnown,
-    known, "1", run);
-  rows.Add("Float input: median relative difference", known ? rounding.Run.Median : NotKnown,
-    known, "1", run);
+  rows.AddIf(known, "Float input: greatest relative difference", rounding.Run.Greatest, run);
+  rows.AddIf(known, "Float input: median relative difference", rounding.Run.Median, run);
   const bool stored = rounding.Storage.Values > 0;
-  rows.Add("Float result: greatest relative difference",
-    stored ? rounding.Storage.Greatest : NotKnown, stored, "1", storage);
-  rows.Add("Float result: median relative difference",
-    stored ? rounding.Storage.Median : NotKnown, stored, "1", storage);
+  rows.AddIf(
+    stored, "Float result: greatest relative difference", rounding.Storage.Greatest, storage);
+  rows.AddIf(
+    stored, "Float result: median relative difference", rounding.Storage.Median, storage);
 }
 
 bool HasTrueError(const StudyRun& run)
@@ -284,7 +288,7 @@ void WriteStudySummary(const StudyRecord& study, vtkTable* table)
 {
   const Rows rows(table);
   const std::size_t made = study.Runs.size();
-  rows.Add("Runs", static_cast<double>(made), true, "1",
+  rows.Add("Runs", "=", static_cast<double>(made), "1",
     "of " + std::to_string(study.Wanted) + ", of " + study.Quantity +
       (study.Stopped.empty() ? "" : "; " + study.Stopped));
   AddSlope(rows, "estimated", EstimatedCurve(study));

@@ -30,7 +30,7 @@ struct StudyRecord
 
 /// A row a run (vtkAccuracyStudy.h names the columns).
 void WriteStudyRuns(const StudyRecord& study, vtkTable* table);
-/// Figure, Value, Known, Unit, Note.
+/// Figure, Relation, Value, Unit, Note.
 void WriteStudySummary(const StudyRecord& study, vtkTable* table);
 /// What a chart of error against time draws.
 void WriteStudyCurves(const StudyRecord& study, vtkTable* table);

@@ -28,9 +28,9 @@ class vtkRadiometricAlgorithm;
 ///           Sharpness (median of error/|value - reference|), Samples, MemoryMiB, "Error: ..." (mean
 ///           error by source, where the filter tells), Reference, Effects (that were simulated),
 ///           Outcome, Method. -1: not known (the reference itself has no true error)
-///           output 1, vtkTable: Figure, Value, Known (0 or 1), Unit, Note: slopes p of
-///           error = c seconds^p, seconds to 10 %, 1 %, 0.1 %, 0.01 % (between runs, in logarithms),
-///           predictions, float against double
+///           output 1, vtkTable: Figure, Relation (of the figure to the value: =, <=, > or unknown),
+///           Value, Unit, Note. Slopes p of error = c seconds^p; seconds to 10 %, 1 %, 0.1 %, 0.01 %
+///           (between runs, in logarithms); predictions; float against double
 ///           output 2: the surface of the finest run
 ///           output 3, vtkTable for a line chart with logarithmic axes: Time [s], EstimatedError,
 ///           TrueError, errors below rounding as rounding; a row a run that has a true error (where

@@ -64,17 +64,24 @@ def _run(options, progress):
 
     path = scenes.find(options.scene)
     scene = scenes.read(path, options, progress)
-    results = [run(vtkIrradianceFilter(), "Irradiance", scene, options, progress)]
+    last = vtkIrradianceFilter()
+    results = [run(last, "Irradiance", scene, options, progress)]
     if options.radiosity:
         from .vtkRadiometryFilters import vtkRadiosityFilter
 
-        results.append(run(vtkRadiosityFilter(), "Radiosity", scene, options, progress))
+        last = vtkRadiosityFilter()
+        results.append(run(last, "Radiosity", scene, options, progress))
+    study = None
+    if options.study is not None:
+        from .study import run as run_study
+
+        study = run_study(last, results[-1].name, options, progress)
     display.ensure()
     with OutputFolder(options.output) as output:
         progress.on_second_signal = output._clean
         from .outputs import write_all
 
-        summary = write_all(output, scene, results, options, progress)
+        summary = write_all(output, scene, results, options, progress, study)
         progress.check()
         published = output.publish()
     return summary, published

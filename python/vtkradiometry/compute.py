@@ -79,12 +79,8 @@ def configure(algorithm, options):
         _set(algorithm, "TwoSided", bool(options.two_sided))
 
 
-def run(algorithm, name, scene, options, progress):
-    """Runs `algorithm` on the scene's surface and measuring grid and returns its Result.
-
-    Raises InputFault with the filter's own words if it refuses its input, and Stopped when the
-    user stopped it.
-    """
+def prepare(algorithm, scene, options):
+    """Gives `algorithm` the scene's surface and measuring grid, its lights and the options."""
     given = scene.surface
     if scene.work_plane is not None:
         given = vtkMultiBlockDataSet()
@@ -95,6 +91,16 @@ def run(algorithm, name, scene, options, progress):
     configure(algorithm, options)
     _set(algorithm, "Photometric", scene.work_plane is not None)
     _set(algorithm, "LuminousEfficacy", scene.efficacy())
+    return algorithm
+
+
+def run(algorithm, name, scene, options, progress):
+    """Runs `algorithm` on the scene and returns its Result.
+
+    Raises InputFault with the filter's own words if it refuses its input, and Stopped when the
+    user stopped it.
+    """
+    prepare(algorithm, scene, options)
     with Listener() as listener:
         listener.observe(algorithm)
         listener.observe(algorithm.GetExecutive())

@@ -87,6 +87,23 @@ def _height(text):
     return value
 
 
+def _levels(text):
+    """A list of tolerances, or of seconds with an s behind each."""
+    words = [word.strip() for word in text.split(",")]
+    budgets = all(word.endswith("s") for word in words)
+    try:
+        values = [float(word[:-1] if budgets else word) for word in words]
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"{text} is neither tolerances (0.1,0.01) nor seconds (1s,5s) (a scene that follows "
+            "needs --study=0.1,0.01 or must come first)") from None
+    least, most = (0.0, math.inf) if budgets else (0.0, 1.0)
+    if not all(least < value <= most and math.isfinite(value) for value in values):
+        raise argparse.ArgumentTypeError(
+            f"{text}: " + ("seconds above 0" if budgets else "tolerances in (0, 1]") + " are wanted")
+    return ("budgets" if budgets else "tolerances"), values
+
+
 class _Luminaire(argparse.Action):
     """--luminaire FILE begins a luminaire; --at and --toward say where the one before them hangs
     and what it looks at. More than one --at: as many copies."""
@@ -150,6 +167,14 @@ def make_parser(program="./run"):
                           "(default: auto, about 2500 triangles)")
     accuracy.add_argument("--threads", type=_count, default=0, metavar="N",
                           help="processor threads (default: 0, all)")
+
+    accuracy.add_argument("--study", type=_levels, nargs="?", const=("tolerances", []),
+                          metavar="LIST",
+                          help="what accuracy costs: run the last computation again at these "
+                          "tolerances (0.1,0.02,0.01) or for these times (1s,5s,20s), as a table and a "
+                          "plot (default: 0.1,0.05,0.02,0.01,0.005); the time budget ends each run")
+    accuracy.add_argument("--study-float", action="store_true",
+                          help="also run the finest one with input in single precision")
 
     physics = parser.add_argument_group("what is computed")
     physics.add_argument("--radiosity", action=argparse.BooleanOptionalAction, default=True,

@@ -10,6 +10,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from . import falsecolor, mesh, picture, plots, quantities, report, sky, view_mesh, workplane
 from .faults import Listener
 from .image_file import write_exr
+from .plan import plan_lines
 from .scales import Scale, format_number
 from .versions import versions
 from .vtkRadiometryFilters import vtkIrradianceFilter
@@ -217,8 +218,17 @@ def _work_plane(output, scene, result, options, progress):
     return plane
 
 
-def write_all(output, scene, results, options, progress):
-    """Writes every file; returns one sentence for the terminal."""
+def _study(output, study, scene, options):
+    """The table and the plot of an accuracy study."""
+    from .study import write_csv, write_png
+
+    write_csv(output.path("study.csv", "what accuracy costs: a row for each run of the study"), study)
+    write_png(output.path("study.png", "the same as a plot: error against seconds"), study,
+              os.path.basename(scene.path), options.size)
+
+
+def write_all(output, scene, results, options, progress, study=None):
+    """Writes every file; returns what the terminal is told."""
     surface = merge(results)
     areas = mesh.areas(surface)
     summary = _summary(surface, areas, scene)
@@ -236,6 +246,9 @@ def write_all(output, scene, results, options, progress):
         plots.write_png(output.path("convergence.png", "estimated error against seconds"), tables,
                         options.tolerance, os.path.basename(scene.path), options.size)
         plots.write_csv(output.path("convergence.csv", "the same as a table"), tables)
+    if study is not None:
+        with progress.stage("Study"):
+            _study(output, study, scene, options)
     plane = _work_plane(output, scene, results[-1], options, progress)
     with progress.stage("Statistics"), Listener() as listener:
         statistics = {}
@@ -256,6 +269,10 @@ def write_all(output, scene, results, options, progress):
         sentence += (" Nothing gives light, so all is black: --luminaire, --sky and --sun add lights.")
     if plane is not None:
         sentence += "\n" + plane.sentence()
+    said = [sentence]
+    if study is not None:
+        said.append("\n".join(study.lines()))
+    said.append("\n".join(plan_lines(results[-1].name, results[-1].plan_rows())))
     document = {
         "summary": sentence,
         "scene": {
@@ -275,6 +292,9 @@ def write_all(output, scene, results, options, progress):
         ],
         "work_plane": plane and {"grid": plane.rule, "statistics": plane.rows(),
                                  "levels": plane.levels},
+        "study": study and {"name": study.name, "text": study.lines(), "runs": study.runs,
+                            "summary": study.summary, "seconds": study.seconds,
+                            "warnings": study.warnings},
         "statistics": statistics,
         "flux": flux,
         "pictures": pictures,
@@ -285,4 +305,4 @@ def write_all(output, scene, results, options, progress):
     report.write_text(output.path("report.txt", "effect plan, statistics and times, for reading"),
                       document)
     report.write_json(output.path("report.json", "the same for programs"), document)
-    return sentence
+    return "\n\n".join(words for words in said if words)

@@ -11,6 +11,15 @@ class Stopped(Exception):
     """The user asked for a stop (Ctrl-C or a termination signal)."""
 
 
+def foretell(algorithm):
+    """What a simulating filter said that it will take, in words."""
+    seconds, budget = algorithm.GetPredictedSeconds(), algorithm.GetTimeBudget()
+    goal = f"{100.0 * algorithm.GetRelativeTolerance():g} %"
+    if budget > 0.0 and seconds >= 0.95 * budget:
+        return f"about {budget:.3g} s, the time budget, which ends it before {goal} everywhere"
+    return f"about {seconds:.2g} s to {goal}"
+
+
 class Progress:
     """One line that is rewritten on a terminal; a line a stage, and every ten seconds, elsewhere.
 
@@ -84,11 +93,25 @@ class Progress:
             self._write(f"{what} {100.0 * caller.GetProgress():3.0f} %, "
                         f"{now - self._begin:.1f} s", line=True)
 
-        tag = algorithm.AddObserver("ProgressEvent", report)
+        def predicted(caller, _event):
+            self.note(f"{self._stage}: {foretell(caller)}")
+
+        tags = [algorithm.AddObserver("ProgressEvent", report)]
+        if hasattr(algorithm, "PredictedEvent"):
+            tags.append(algorithm.AddObserver(algorithm.PredictedEvent, predicted))
         try:
             yield
         finally:
-            algorithm.RemoveObserver(tag)
+            for tag in tags:
+                algorithm.RemoveObserver(tag)
+
+    def note(self, text):
+        """A line that stays."""
+        if self.quiet:
+            return
+        self._clear()
+        self.stream.write(text + "\n")
+        self.stream.flush()
 
     def _write(self, text, line=False):
         if self.quiet:

@@ -108,6 +108,8 @@ def text_lines(report):
         lines += ["", "Estimated error against time:"] + table(computation["convergence"])
         for words in computation["warnings"]:
             lines += textwrap.wrap("warning: " + words, WIDTH, subsequent_indent="  ")
+    if report.get("study"):
+        lines += _title("Accuracy study") + report["study"]["text"]
     if report.get("work_plane"):
         plane = report["work_plane"]
         lines += _title("Work plane") + textwrap.wrap(plane["grid"], WIDTH) + [""]

@@ -71,9 +71,9 @@ def rows(s, port=0):
 
 
 def summary(s):
-    """{figure: (value, known, note)}"""
+    """{figure: (value, relation, note)}"""
     return dict(zip(column(s, "Figure", 1),
-                    zip(column(s, "Value", 1), column(s, "Known", 1), column(s, "Note", 1))))
+                    zip(column(s, "Value", 1), column(s, "Relation", 1), column(s, "Note", 1))))
 
 
 def check_finite(s):
@@ -117,11 +117,12 @@ def test_open_plane_is_exact():
     assert set(column(s, "Reference")) == {"the reference that was given"}
     assert rows(s, 3) == 3
     figures = summary(s)
-    value, known, note = figures["Seconds to 0.01 % true error"]
-    assert value > 0.0 and not known and note.startswith("at most"), (value, known, note)
+    value, relation, note = figures["Seconds to 0.01 % true error"]
+    assert value > 0.0 and relation == "<=" and "first run" in note, (value, relation, note)
+    assert figures["Slope of the true error"][:2] == (0.0, "unknown")
     for figure in ("Float input: median", "Float result: median"):
-        value, known, _ = figures[figure + " relative difference"]
-        assert known and 1e-10 < value < 1e-6, value
+        value, relation, _ = figures[figure + " relative difference"]
+        assert relation == "=" and 1e-10 < value < 1e-6, value
     check_finite(s)
 
 
@@ -141,6 +142,8 @@ def test_finest_run_stands_in_for_a_reference():
     assert set(column(s, "Effects")) == {"Occlusion"} or all(
         "Occlusion" in words for words in column(s, "Effects"))
     assert rows(s, 3) == 2
+    figures, longest = summary(s), column(s, "TotalSeconds").max()
+    assert figures["Seconds to 0.01 % estimated error"][:2] == (longest, ">")
     check_finite(s)
 
     # The same run given as a reference: no deviation at all, and the error of that run as before.
@@ -389,8 +392,8 @@ def test_float_input_that_cannot_be_computed():
     s.Update()
     assert rows(s) == 1
     check_finite(s)
-    value, known, note = summary(s)["Float input: median relative difference"]
-    assert known or (value == UNKNOWN and note.startswith("not known: "))
+    value, relation, note = summary(s)["Float input: median relative difference"]
+    assert relation == "=" or (value == UNKNOWN and note.startswith("not known: "))
 
 
 def test_sources_of_a_filter_that_no_connection_leads_to():

@@ -13,6 +13,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import tiny_scene
+from vtkradiometry import options
+from vtkradiometry.progress import foretell
 from vtkradiometry import vtkOpenEXRReader
 from front_end import exr_channels, exr_header, listing, require, run
 
@@ -136,7 +138,54 @@ def check_csv(path):
         require(math.isfinite(float(row["EstimatedError"])), row)
 
 
+def check_study(folder, said):
+    """A row a run, the picture, and both in the report; the plan beside it."""
+    with open(os.path.join(folder, "study.csv"), encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    require([float(row["RelativeTolerance"]) for row in rows] == [0.3, 0.1], rows)
+    require(0.0 < float(rows[0]["TrueError"]) < 0.3 and rows[1]["TrueError"] == "", rows)
+    require(all(0.0 < float(row["EstimatedError"]) < 0.3 for row in rows), rows)
+    check_png(os.path.join(folder, "study.png"), 0.02, 0.99)
+    for words in ("Study of Radiosity", "30 %", "seconds to", "slope", "effects on: ",
+                  "input in single precision", "Radiosity: what the scene calls for",
+                  "Interreflection  simulated", "not needed: "):
+        require(words in said, words, "is not said:", said)
+    with open(os.path.join(folder, "report.txt"), encoding="utf-8") as stream:
+        require("Accuracy study" in stream.read(), "no study in report.txt")
+    with open(os.path.join(folder, "report.json"), encoding="utf-8") as stream:
+        require(len(json.load(stream)["study"]["runs"]) == 2, "no study in report.json")
+
+
+class Foretold:
+    """What a filter says before it runs."""
+
+    def __init__(self, seconds, budget, tolerance=0.01):
+        self.numbers = seconds, budget, tolerance
+
+    def GetPredictedSeconds(self):
+        return self.numbers[0]
+
+    def GetTimeBudget(self):
+        return self.numbers[1]
+
+    def GetRelativeTolerance(self):
+        return self.numbers[2]
+
+
+for foretold, words in ((Foretold(12.3, 0.0), "about 12 s to 1 %"),
+                        (Foretold(3.21, 15.0, 0.005), "about 3.2 s to 0.5 %"),
+                        (Foretold(15.0, 15.0), "about 15 s, the time budget, which ends it before "
+                                               "1 % everywhere")):
+    require(foretell(foretold) == words, foretell(foretold), words)
+for text, wanted in (("0.1,0.02", ("tolerances", [0.1, 0.02])), ("1s, 5s", ("budgets", [1.0, 5.0]))):
+    require(options.parse(["--study", text]).study == wanted, text)
+require(options.parse(["--study"]).study == ("tolerances", []), "no list")
+require(options.parse([]).study is None, "no study")
+
 with tempfile.TemporaryDirectory() as where:
+    for wrong in ("room.glb", "0.1,1s", "2", "0", "0s", "nan", ""):
+        done = run(os.path.join(where, "tiny.gltf"), "--study", wrong)
+        require(done.returncode == 2 and "--study" in done.stderr, wrong, done.stderr)
     scene = tiny_scene.write(os.path.join(where, "tiny.gltf"))
     out = os.path.join(where, "new", "results")
     done = run(scene, "--output", out, "--size", f"{SIZE[0]}x{SIZE[1]}", "--max-edge", 0.3)
@@ -155,8 +204,9 @@ with tempfile.TemporaryDirectory() as where:
 
     # The same again: the surface's values are the same bytes, with other numbers of threads too.
     again = os.path.join(where, "again")
-    done = run(scene, "--output", again, "--size", "64x64", "--max-edge", 0.3, "--threads", 1,
-               "--quiet")
+    done = run(scene, "--output", again, "--size", "320x200", "--max-edge", 0.3, "--threads", 1,
+               "--quiet", "--study", "0.1,0.3", "--study-float")
+    check_study(again, done.stdout)
     require(done.returncode == 0 and done.stderr == "", done.returncode, done.stderr)
     first, second = (check_surface(os.path.join(f, "scene.vtp")) for f in (out, again))
     for name in ("Irradiance", "Radiosity", "RadiosityError"):
