@@ -8,6 +8,7 @@ import argparse
 import math
 import re
 
+FINEST = 1e-5  # relative tolerance that no time budget of a study waits for
 FIRST_LOOK = 15.0  # seconds for each computation where nobody says how accurate
 
 
@@ -131,6 +132,7 @@ def parse(arguments, program="./run"):
     options = make_parser(program).parse_args(arguments)
     if options.time_budget is None:
         options.time_budget = FIRST_LOOK if options.tolerance is None else 0.0
+    options.study_tolerance = FINEST if options.tolerance is None else options.tolerance
     if options.tolerance is None:
         options.tolerance = 0.05
     return options
@@ -172,7 +174,8 @@ def make_parser(program="./run"):
                           metavar="LIST",
                           help="what accuracy costs: run the last computation again at these "
                           "tolerances (0.1,0.02,0.01) or for these times (1s,5s,20s), as a table and a "
-                          "plot (default: 0.1,0.05,0.02,0.01,0.005); the time budget ends each run")
+                          "plot (default: 0.1,0.05,0.02,0.01,0.005). The time budget ends each run at "
+                          "tolerances, a --tolerance each run for a time")
     accuracy.add_argument("--study-float", action="store_true",
                           help="also run the finest one with input in single precision")
 

@@ -69,7 +69,7 @@ def _write_surface(path, surface, scene, options):
 def option_values(options):
     """The options of the command line that bear on the result."""
     values = dict(vars(options))
-    for name in ("output", "quiet", "version", "scene"):
+    for name in ("output", "quiet", "version", "scene", "study_tolerance"):
         values.pop(name, None)
     return {key: value for key, value in sorted(values.items()) if value is not None}
 

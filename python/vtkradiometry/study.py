@@ -117,12 +117,13 @@ def _rows(data):
 
 
 def run(algorithm, name, options, progress):
-    """Studies a simulating filter that has its inputs and settings; it is left as it is."""
+    """Studies a simulating filter that has its inputs and settings. It is not executed."""
     kind, levels = options.study
     study = vtkAccuracyStudy()
     study.SetFilter(algorithm)
     study.SetFloatComparison(options.study_float)
     if kind == "budgets":
+        algorithm.SetRelativeTolerance(options.study_tolerance)
         study.SetMode(TIME_BUDGETS)
         study.ClearTimeBudgets()
         for level in levels:

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 import struct
 import tempfile
 
@@ -148,8 +149,9 @@ def check_study(folder, said):
     check_png(os.path.join(folder, "study.png"), 0.02, 0.99)
     for words in ("Study of Radiosity", "30 %", "seconds to", "slope", "effects on: ",
                   "input in single precision", "Radiosity: what the scene calls for",
-                  "Interreflection  simulated", "not needed: "):
+                  "not needed: "):
         require(words in said, words, "is not said:", said)
+    require(re.search(r"\n  Interreflection +simulated +\w", said), "no line of an effect:", said)
     with open(os.path.join(folder, "report.txt"), encoding="utf-8") as stream:
         require("Accuracy study" in stream.read(), "no study in report.txt")
     with open(os.path.join(folder, "report.json"), encoding="utf-8") as stream:
@@ -179,6 +181,8 @@ for foretold, words in ((Foretold(12.3, 0.0), "about 12 s to 1 %"),
     require(foretell(foretold) == words, foretell(foretold), words)
 for text, wanted in (("0.1,0.02", ("tolerances", [0.1, 0.02])), ("1s, 5s", ("budgets", [1.0, 5.0]))):
     require(options.parse(["--study", text]).study == wanted, text)
+require(options.parse(["--study", "1s"]).study_tolerance == options.FINEST, "tolerance of budgets")
+require(options.parse(["--study", "1s", "--tolerance", "0.1"]).study_tolerance == 0.1, "as given")
 require(options.parse(["--study"]).study == ("tolerances", []), "no list")
 require(options.parse([]).study is None, "no study")
 
