@@ -316,6 +316,7 @@ def test_other_filters():
                                    (vtkViewFactorFilter, "EnvironmentViewFactor", (0.2, 0.05))):
         f = kind()
         f.SetInputData(data)
+        f.SetRelativeTolerance(0.3)  # its own run, before those of the study
         light = lamp(0.5)
         if kind is not vtkViewFactorFilter:
             f.AddLightsConnection(light.GetOutputPort())
@@ -333,7 +334,7 @@ def test_other_filters():
 
 
 def test_refining_from_what_is_there():
-    f = simulation(vtkRadiosityFilter, room(1.0, 2), LAMP)
+    f = simulation(vtkRadiosityFilter, room(1.0, 2), LAMP, RelativeTolerance=0.3)
     s = study(f, (0.3, 0.1), Fresh=False)
     s.Update()
     total, each = column(s, "TotalSeconds"), column(s, "Seconds")
