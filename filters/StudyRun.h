@@ -30,6 +30,7 @@ struct StudyRun
   bool Compared = false; // with a reference, which is what TrueError is of
   radiometry::Deviation True;
   std::string Reference; // its name
+  double ReferenceError = -1.0; // that it states of itself, as Stated.Relative
 };
 
 /// The array that is first among a filter's results.

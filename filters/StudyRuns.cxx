@@ -10,6 +10,7 @@
 #include "vtkDataObject.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -140,8 +141,28 @@ void StudyRuns::Add(vtkRadiometricAlgorithm* copy, double seconds, bool fresh)
   run.Values = this->Read(surface, "", copy, &run);
   run.Stated = radiometry::SummarizeErrors(run.Values);
   this->Study.Runs.push_back(std::move(run));
-  this->FinestSurface = vtk::TakeSmartPointer(surface->NewInstance());
-  this->FinestSurface->ShallowCopy(surface);
+  this->KeepFinest(surface);
+}
+
+void StudyRuns::KeepFinest(vtkDataObject* surface)
+{
+  const std::vector<StudyRun>& runs = this->Study.Runs;
+  const auto error = [&](std::size_t run) {
+    const double relative = runs[run].Stated.Relative;
+    return relative >= 0.0 ? relative : std::numeric_limits<double>::infinity();
+  };
+  double finest = error(runs.size() - 1) <= error(this->FinestRun) ? 1.0 : 0.0;
+  if (this->Ranks) // the first one knows
+  {
+    finest = this->Ranks->Rank() == 0 ? finest : 0.0;
+    this->Ranks->Largest(&finest, 1);
+  }
+  if (finest > 0.0)
+  {
+    this->FinestRun = runs.size() - 1;
+    this->FinestSurface = vtk::TakeSmartPointer(surface->NewInstance());
+    this->FinestSurface->ShallowCopy(surface);
+  }
 }
 
 void StudyRuns::Make(const std::vector<double>& levels, bool budgets, bool fresh, int repeats)
@@ -181,19 +202,21 @@ void StudyRuns::Compare()
   {
     return;
   }
-  this->Finest = runs.back().Values;
+  const StudyRun& best = runs[this->FinestRun];
+  this->Finest = best.Values;
+  const radiometry::StatedValues& reference = this->HasReference ? this->Reference : this->Finest;
   std::ostringstream finest;
-  finest << "the finest run (RelativeTolerance " << runs.back().Tolerance << ", TimeBudget "
-         << runs.back().Budget << ")";
+  finest << "run " << this->FinestRun + 1 << ", of the least estimated error (RelativeTolerance "
+         << best.Tolerance << ", TimeBudget " << best.Budget << ")";
   for (std::size_t k = 0; k < runs.size(); ++k)
   {
     StudyRun& run = runs[k];
     run.Reference = "none: this run is the reference";
-    if (this->HasReference || k + 1 < runs.size())
+    if (this->HasReference || k != this->FinestRun)
     {
-      run.True =
-        radiometry::Compare(run.Values, this->HasReference ? this->Reference : this->Finest);
+      run.True = radiometry::Compare(run.Values, reference);
       run.Compared = run.True.Values > 0;
+      run.ReferenceError = radiometry::SummarizeErrors(reference).Relative;
       run.Reference = this->HasReference ? "the reference that was given" : finest.str();
     }
     run.Values = {};
@@ -203,8 +226,8 @@ void StudyRuns::Compare()
 std::string StudyRuns::RunRounded(radiometry::StatedValues& values)
 {
   const auto copy = this->Runner.Copy(true);
-  copy->SetRelativeTolerance(this->Study.Runs.back().Tolerance);
-  copy->SetTimeBudget(this->Study.Runs.back().Budget);
+  copy->SetRelativeTolerance(this->Study.Runs[this->FinestRun].Tolerance);
+  copy->SetTimeBudget(this->Study.Runs[this->FinestRun].Budget);
   this->Runner.Announce("the finest run with input in single precision", RunsShare, 1.0);
   StudyRunner::Ends end = StudyRunner::Late;
   try

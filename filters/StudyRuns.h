@@ -23,7 +23,8 @@ public:
   StudyRuns(StudyRunner& runner, const ControllerCommunicator* ranks, const std::string& array,
     double metersPerUnit);
 
-  /// A surface that all runs are compared with, in place of the finest of them.
+  /// A surface that all runs are compared with, in place of the finest of them: that with the least
+  /// estimated error (the last one of equal ones).
   void SetReference(vtkDataObject* reference);
   /// Makes the runs, one for each tolerance or time budget; ends early where the runner is late.
   /// `fresh`: each from nothing, `repeats` times; else each goes on from the one before.
@@ -43,6 +44,7 @@ private:
   StudyRunner::Ends Agreed(StudyRunner::Ends end) const;
   bool RunWell(vtkRadiometricAlgorithm* copy, const std::string& name, double& seconds);
   void Add(vtkRadiometricAlgorithm* copy, double seconds, bool fresh);
+  void KeepFinest(vtkDataObject* surface);
   std::string RunRounded(radiometry::StatedValues& values);
 
   StudyRunner& Runner;
@@ -53,5 +55,6 @@ private:
   bool HasReference = false;
   radiometry::StatedValues Reference;
   radiometry::StatedValues Finest;
+  std::size_t FinestRun = 0;
   vtkSmartPointer<vtkDataObject> FinestSurface;
 };

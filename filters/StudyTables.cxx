@@ -108,23 +108,29 @@ private:
 void AddSlope(const Rows& rows, const std::string& which, const radiometry::ErrorCurve& curve)
 {
   const radiometry::PowerLaw law = radiometry::FitPowerLaw(curve);
+  const bool falls = law.Falls();
   std::string note;
-  if (law.Known)
+  if (falls)
   {
     note = which + " error = " + Text(law.Factor) + " seconds^" + Text(law.Exponent) + ", from " +
       std::to_string(law.Points) + " runs";
   }
-  else if (law.Points < 2)
+  else if (law.Points < 3)
   {
-    note = "not known: " + std::to_string(law.Points) + " runs have such an error above 0";
+    note = "not known: " + std::to_string(law.Points) + " runs have such an error above 0, three are "
+                                                        "wanted";
   }
-  else
+  else if (!law.Known)
   {
     note = "not known: the runs took nearly the same time";
   }
-  // A slope may be -1: what is not known is 0, as an error that does not fall.
-  rows.Add(
-    "Slope of the " + which + " error", law.Known ? "=" : "unknown", law.Exponent, "1", note);
+  else
+  {
+    note = "none: the error does not fall steadily with the time";
+  }
+  // A slope may be -1: where there is none it is 0, that of an error that does not fall.
+  rows.Add("Slope of the " + which + " error", falls ? "=" : "unknown", falls ? law.Exponent : 0.0,
+    "1", note);
 }
 
 void AddArrivals(const Rows& rows, const std::string& which, const radiometry::ErrorCurve& curve)
@@ -140,7 +146,7 @@ void AddArrivals(const Rows& rows, const std::string& which, const radiometry::E
     else if (arrival.Kind == radiometry::Arrival::Already)
     {
       rows.Add(figure, "<=", arrival.Seconds, "s",
-        "the first run already has " + Percent(curve.Errors.front()));
+        "the shortest run already has " + Percent(curve.InTime().Errors.front()));
     }
     else if (curve.Errors.empty())
     {
@@ -151,10 +157,31 @@ void AddArrivals(const Rows& rows, const std::string& which, const radiometry::E
       const double longest = *std::max_element(curve.Seconds.begin(), curve.Seconds.end());
       const double later = radiometry::FitPowerLaw(curve).SecondsTo(target);
       rows.Add(figure, ">", longest, "s",
-        "the last run still has " + Percent(curve.Errors.back()) +
+        "the best run still has " +
+          Percent(*std::min_element(curve.Errors.begin(), curve.Errors.end())) +
           (later > longest ? "; by the slope about " + Text(later) + " s" : ""));
     }
   }
+}
+
+bool HasTrueError(const StudyRun& run)
+{
+  return run.Compared && run.True.Relative >= 0.0;
+}
+
+/// How far the reference can be trusted.
+void AddReference(const Rows& rows, const StudyRecord& study)
+{
+  const auto compared = std::find_if(
+    study.Runs.begin(), study.Runs.end(), [](const StudyRun& run) { return run.Compared; });
+  const bool known = compared != study.Runs.end() && compared->ReferenceError >= 0.0;
+  const auto within = std::count_if(study.Runs.begin(), study.Runs.end(), [](const StudyRun& run) {
+    return HasTrueError(run) && run.True.Relative < run.ReferenceError;
+  });
+  rows.AddIf(known, "Estimated error of the reference", known ? compared->ReferenceError : NotKnown,
+    known ? compared->Reference + "; " + std::to_string(within) +
+        " true errors are below it and may be its own"
+          : std::string("no run is compared"));
 }
 
 void AddPredictions(const Rows& rows, const StudyRecord& study)
@@ -196,11 +223,6 @@ void AddFloat(const Rows& rows, const StudyRecord::Rounding& rounding)
     stored, "Float result: greatest relative difference", rounding.Storage.Greatest, storage);
   rows.AddIf(
     stored, "Float result: median relative difference", rounding.Storage.Median, storage);
-}
-
-bool HasTrueError(const StudyRun& run)
-{
-  return run.Compared && run.True.Relative >= 0.0;
 }
 
 radiometry::ErrorCurve EstimatedCurve(const StudyRecord& study)
@@ -257,6 +279,7 @@ void WriteStudyRuns(const StudyRecord& study, vtkTable* table)
   numbers("TrueGreatestError", IfCompared(&radiometry::Deviation::Greatest));
   numbers("Coverage", IfCompared(&radiometry::Deviation::Coverage));
   numbers("Sharpness", IfCompared(&radiometry::Deviation::Sharpness));
+  numbers("ReferenceError", [](const StudyRun& run) { return run.ReferenceError; });
   numbers("Samples", [](const StudyRun& run) { return run.Samples; });
   numbers("MemoryMiB", [](const StudyRun& run) { return run.MemoryMiB; });
   std::vector<std::string> parts; // in the order of their first mention
@@ -295,6 +318,7 @@ void WriteStudySummary(const StudyRecord& study, vtkTable* table)
   AddSlope(rows, "true", TrueCurve(study));
   AddArrivals(rows, "estimated", EstimatedCurve(study));
   AddArrivals(rows, "true", TrueCurve(study));
+  AddReference(rows, study);
   AddPredictions(rows, study);
   AddFloat(rows, study.Float);
 }
@@ -311,6 +335,8 @@ void WriteStudyCurves(const StudyRecord& study, vtkTable* table)
     [&](const StudyRun& run) {
       return run.Stated.Relative >= 0.0 && (HasTrueError(run) || !anyTrue);
     });
+  std::stable_sort(shown.Runs.begin(), shown.Runs.end(), // lines join them in their order
+    [](const StudyRun& a, const StudyRun& b) { return a.TotalSeconds < b.TotalSeconds; });
   AddNumbers(table, "Time", shown, [](const StudyRun& run) { return run.TotalSeconds; });
   AddNumbers(table, "EstimatedError", shown,
     [&](const StudyRun& run) { return drawn(run.Stated.Relative); });

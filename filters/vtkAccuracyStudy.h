@@ -25,13 +25,15 @@ class vtkRadiometricAlgorithm;
 ///           and GreatestError (mean and greatest stated error, unit of the array), TrueError (RMS of
 ///           value - reference over the mean of the reference), TrueAbsoluteError, TrueGreatestError,
 ///           Coverage (share of values within hypot(error, error of the reference) of the reference),
-///           Sharpness (median of error/|value - reference|), Samples, MemoryMiB, "Error: ..." (mean
+///           Sharpness (median of error/|value - reference|), ReferenceError (that the reference states
+///           of itself: true errors below it may be its own), Samples, MemoryMiB, "Error: ..." (mean
 ///           error by source, where the filter tells), Reference, Effects (that were simulated),
 ///           Outcome, Method. -1: not known (the reference itself has no true error)
 ///           output 1, vtkTable: Figure, Relation (of the figure to the value: =, <=, > or unknown),
 ///           Value, Unit, Note. Slopes p of error = c seconds^p; seconds to 10 %, 1 %, 0.1 %, 0.01 %
 ///           (between runs, in logarithms); predictions; float against double
-///           output 2: the surface of the finest run
+///           output 2: the surface of the finest run: that with the least estimated error, which is
+///           the reference where none is given
 ///           output 3, vtkTable for a line chart with logarithmic axes: Time [s], EstimatedError,
 ///           TrueError, errors below rounding as rounding; a row a run that has a true error (where
 ///           none has, a row a run without that column)

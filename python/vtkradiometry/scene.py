@@ -18,8 +18,21 @@ EMISSIVE_UNITS = {"auto": 0, "luminance": 1, "radiance": 2, "exitance": 3}
 EXAMPLES = ("gallery", "cornell-box", "office")
 
 
+def _only_scene(folder):
+    """The one scene file of a folder."""
+    found = sorted(entry for entry in os.listdir(folder) if entry.endswith((".gltf", ".glb")))
+    if len(found) == 1:
+        return os.path.join(folder, found[0])
+    held = "several scenes" if found else "no .gltf or .glb file"
+    names = ", ".join((found or sorted(os.listdir(folder)))[:5])
+    raise InputFault(f"{folder}: a folder with {held}" + (f" ({names})" if names else "")
+                     + ": name a scene file")
+
+
 def find(name):
-    """The scene file that `name` means: a path, or one of the bundled examples."""
+    """The scene file that `name` means: a path, a folder with one scene, or a bundled example."""
+    if name is not None and os.path.isdir(name):
+        return _only_scene(name)
     if name is not None and not (name in EXAMPLES and not os.path.exists(name)):
         return name
     folder = os.environ.get("VTKRADIOMETRY_EXAMPLES")

@@ -35,6 +35,10 @@ class Study:
         """What the terminal and the report show of each run."""
         return [_shown(run) for run in self.runs]
 
+    def reference(self):
+        """The run that the others are compared with; None where a reference was given."""
+        return next((run for run in self.runs if run["Reference"].startswith("none")), None)
+
     def lines(self):
         """The study as aligned text."""
         lines = [f"Study of {self.name} ({self.quantity})"]
@@ -46,6 +50,10 @@ class Study:
                                subsequent_indent="    ")
         lines += ["  " + line for line in table(self._arrivals())]
         lines += [f"  {words}" for words in self._sentences()]
+        if any(_own(run) for run in self.runs):
+            lines.append("  * within the error that the reference states of itself "
+                         f"({format_percent(self.figure('Estimated error of the reference')['Value'])})"
+                         ": may be the reference's own")
         stopped = self.figure("Runs")["Note"].partition("; ")[2]
         return lines + (["  " + stopped] if stopped else [])
 
@@ -92,6 +100,11 @@ def _known(value):
     return value is not None and value != UNKNOWN
 
 
+def _own(run):
+    """Whether a true error cannot be told from that of the reference."""
+    return _known(run["TrueError"]) and run["TrueError"] < run["ReferenceError"]
+
+
 def _shown(run):
     """A run in the words of the terminal."""
     return {
@@ -103,7 +116,9 @@ def _shown(run):
                      if _known(run["PredictedSeconds"]) else "-",
         "estimated error": format_percent(run["EstimatedError"])
                            if _known(run["EstimatedError"]) else "-",
-        "true error": format_percent(run["TrueError"]) if _known(run["TrueError"]) else "-",
+        "true error": (format_percent(run["TrueError"]) + (" *" if _own(run) else "")
+                       if _known(run["TrueError"])
+                       else ("(reference)" if run["Reference"].startswith("none") else "-")),
         "covered": f"{100.0 * run['Coverage']:.1f} %" if _known(run["Coverage"]) else "-",
         "sharpness": format_number(run["Sharpness"]) if _known(run["Sharpness"]) else "-",
         "samples": format_number(run["Samples"]) if _known(run["Samples"]) else "-",
@@ -161,7 +176,7 @@ def _curve(axes, study, key, label, color, marker):
     found = [(run_["TotalSeconds"], run_[key]) for run_ in study.runs if run_[key] > 0.0]
     if not found:
         return False
-    seconds, errors = np.array(found).T
+    seconds, errors = np.array(sorted(found)).T  # a loaded machine may take longer for less
     slope = study.figure(f"Slope of the {label} error")
     words = f"{label} error"
     if slope["Relation"] == "=":
@@ -178,17 +193,29 @@ def _curve(axes, study, key, label, color, marker):
 def _parts(axes, study):
     """The parts of the error by source, as shares of the mean value, like the curves beside them."""
     names = [name for name in study.runs[0] if name.startswith(PART)] if study.runs else []
-    drawn = 0
+    drawn = []
     for name, color in zip(names, COLORS):
         found = [(run_["TotalSeconds"], 100.0 * run_[name] * run_["EstimatedError"]
                   / run_["AbsoluteError"]) for run_ in study.runs
                  if run_[name] > 0.0 and run_["AbsoluteError"] > 0.0]
         if found:
-            seconds, errors = np.array(found).T
-            axes.plot(seconds, errors, marker="s", markersize=4, color=color,
-                      label=name[len(PART):])
-            drawn += 1
-    return drawn
+            drawn.append((name[len(PART):], color, *np.array(sorted(found)).T))
+    for name, color, seconds, errors in sorted(drawn, key=lambda part: -part[3][-1]):
+        axes.plot(seconds, errors, marker="s", markersize=4, color=color, label=name)
+    return len(drawn)
+
+
+def _reference(axes, study):
+    """A ring about the run that stands in for the truth, and how far that can be trusted."""
+    run_ = study.reference()
+    trust = study.figure("Estimated error of the reference")
+    if run_ is not None and run_["EstimatedError"] > 0.0:
+        axes.plot(run_["TotalSeconds"], 100.0 * run_["EstimatedError"], marker="o", markersize=14,
+                  markerfacecolor="none", markeredgecolor="0.3", linestyle="none",
+                  label="the reference of the true errors")
+    if trust["Relation"] == "=" and trust["Value"] > 0.0:
+        axes.axhline(100.0 * trust["Value"], color="0.5", linestyle="--", linewidth=1.0,
+                     label="what the reference states of itself")
 
 
 def _finish(axes, drawn, title):
@@ -227,6 +254,8 @@ def write_png(path, study, title, size=(1280, 720)):
         figsize=(12.0, max(12.0 * size[1] / size[0], 5.0)), dpi=size[0] / 12.0)
     drawn = [_curve(panels[0][0], study, "EstimatedError", "estimated", COLORS[0], "o"),
              _curve(panels[0][0], study, "TrueError", "true", COLORS[1], "^")]
+    if any(drawn):
+        _reference(panels[0][0], study)
     _finish(panels[0][0], any(drawn), f"{study.name}: error against time")
     panels[0][0].set_ylabel("relative error of the mean, %")
     if parts:

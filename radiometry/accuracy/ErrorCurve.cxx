@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace radiometry
 {
@@ -12,17 +13,41 @@ namespace
 
 /// Of the longest run to the shortest: below it, times differ by chance.
 constexpr double LeastSpan = 1.5;
+constexpr std::size_t LeastPoints = 3; // through two there is always a line
+constexpr double FlattestExponent = -0.15;
+constexpr double LeastExplained = 0.5;
+constexpr double FarthestExtrapolation = 100.0; // times the longest run
 
 } // namespace
 
+ErrorCurve ErrorCurve::InTime() const
+{
+  std::vector<std::size_t> order(this->Seconds.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return this->Seconds[a] < this->Seconds[b]; });
+  ErrorCurve sorted;
+  for (const std::size_t k : order)
+  {
+    sorted.Seconds.push_back(this->Seconds[k]);
+    sorted.Errors.push_back(this->Errors[k]);
+  }
+  return sorted;
+}
+
+bool PowerLaw::Falls() const
+{
+  return this->Known && this->Points >= LeastPoints && this->Exponent <= FlattestExponent && this->Explained >= LeastExplained;
+}
+
 double PowerLaw::SecondsTo(double error) const
 {
-  if (!this->Known || !(this->Exponent < 0.0) || !(error > 0.0))
+  if (!this->Falls() || !(error > 0.0))
   {
     return -1.0;
   }
   const double seconds = std::exp(std::log(error / this->Factor) / this->Exponent);
-  return std::isfinite(seconds) ? seconds : -1.0;
+  return seconds <= FarthestExtrapolation * this->Longest ? seconds : -1.0;
 }
 
 PowerLaw FitPowerLaw(const ErrorCurve& curve)
@@ -52,10 +77,12 @@ PowerLaw FitPowerLaw(const ErrorCurve& curve)
   meanY /= static_cast<double>(x.size());
   double xx = 0.0;
   double xy = 0.0;
+  double yy = 0.0;
   for (std::size_t k = 0; k < x.size(); ++k)
   {
     xx += (x[k] - meanX) * (x[k] - meanX);
     xy += (x[k] - meanX) * (y[k] - meanY);
+    yy += (y[k] - meanY) * (y[k] - meanY);
   }
   const double exponent = spread ? xy / xx : 0.0;
   const double factor = std::exp(meanY - exponent * meanX);
@@ -64,12 +91,15 @@ PowerLaw FitPowerLaw(const ErrorCurve& curve)
   {
     law.Exponent = exponent;
     law.Factor = factor;
+    law.Explained = yy > 0.0 ? xy * xy / (xx * yy) : 0.0;
+    law.Longest = std::exp(*longest);
   }
   return law;
 }
 
-Arrival ArriveAt(double error, const ErrorCurve& curve)
+Arrival ArriveAt(double error, const ErrorCurve& points)
 {
+  const ErrorCurve curve = points.InTime();
   for (std::size_t k = 0; k < curve.Errors.size(); ++k)
   {
     const double here = curve.Errors[k];

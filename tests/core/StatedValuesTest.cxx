@@ -146,7 +146,10 @@ TEST(ErrorCurve, FitsAPowerLaw)
   EXPECT_EQ(law.Points, 4u);
   EXPECT_NEAR(law.Exponent, -0.5, 1e-13);
   EXPECT_NEAR(law.Factor, 0.07, 1e-13);
-  EXPECT_NEAR(law.SecondsTo(0.0007), 1e4, 1e-8);
+  EXPECT_NEAR(law.Explained, 1.0, 1e-12);
+  EXPECT_TRUE(law.Falls());
+  EXPECT_NEAR(law.SecondsTo(0.001), 4900.0, 1e-8);
+  EXPECT_LT(law.SecondsTo(0.0007), 0.0); // 10,000 s: too far beyond 50
   // Between two runs it is the law itself.
   const Arrival arrival = ArriveAt(0.05, curve);
   EXPECT_EQ(arrival.Kind, Arrival::Between);
@@ -160,7 +163,16 @@ TEST(ErrorCurve, WhatCannotBeFitted)
   EXPECT_FALSE(FitPowerLaw({ { 1.0, 1.0 }, { 0.1, 0.01 } }).Known);      // one time
   EXPECT_FALSE(FitPowerLaw({ { 1.0, 1.2 }, { 0.1, 0.01 } }).Known);      // nearly one time
   EXPECT_FALSE(FitPowerLaw({ { 1.0, 2.0, 3.0 }, { 0.1, 0.0, 0.0 } }).Known); // exact runs
-  EXPECT_LT(FitPowerLaw({ { 1.0, 4.0 }, { 0.1, 0.2 } }).SecondsTo(0.01), 0.0); // it grows
+  EXPECT_FALSE(FitPowerLaw({ { 1.0, 4.0 }, { 0.2, 0.1 } }).Falls()); // two points
+  const PowerLaw grows = FitPowerLaw({ { 1.0, 2.0, 4.0 }, { 0.1, 0.15, 0.2 } });
+  EXPECT_TRUE(grows.Known);
+  EXPECT_FALSE(grows.Falls());
+  EXPECT_LT(grows.SecondsTo(0.01), 0.0);
+  EXPECT_FALSE(FitPowerLaw({ { 1.0, 5.0, 10.0 }, { 0.1, 0.095, 0.09 } }).Falls()); // hardly
+  // Up and down: the slope of a line through it says nothing.
+  const PowerLaw scattered = FitPowerLaw({ { 1, 2, 3, 4 }, { 0.02, 0.08, 0.01, 0.03 } });
+  EXPECT_LT(scattered.Exponent, 0.0);
+  EXPECT_FALSE(scattered.Falls());
   EXPECT_LT(PowerLaw().SecondsTo(0.1), 0.0);
 }
 
@@ -178,4 +190,5 @@ TEST(ErrorCurve, Arrivals)
   EXPECT_EQ(ArriveAt(0.01, {}).Kind, Arrival::Never);
   // A finer run that happened to be faster.
   EXPECT_EQ(ArriveAt(0.01, { { 2.0, 1.5 }, { 0.2, 0.001 } }).Seconds, 1.5);
+  EXPECT_EQ(ArriveAt(0.1, { { 9.0, 1.0, 4.0 }, { 0.0, 0.2, 0.05 } }).Seconds, 2.0); // any order
 }

@@ -118,7 +118,7 @@ def test_open_plane_is_exact():
     assert rows(s, 3) == 3
     figures = summary(s)
     value, relation, note = figures["Seconds to 0.01 % true error"]
-    assert value > 0.0 and relation == "<=" and "first run" in note, (value, relation, note)
+    assert value > 0.0 and relation == "<=" and "shortest run" in note, (value, relation, note)
     assert figures["Slope of the true error"][:2] == (0.0, "unknown")
     for figure in ("Float input: median", "Float result: median"):
         value, relation, _ = figures[figure + " relative difference"]
@@ -133,7 +133,8 @@ def test_finest_run_stands_in_for_a_reference():
     assert rows(s) == 3
     assert column(s, "TrueError")[-1] == column(s, "Coverage")[-1] == UNKNOWN
     assert column(s, "Reference")[-1] == "none: this run is the reference"
-    assert all("finest run" in words for words in column(s, "Reference")[:-1])
+    assert all("run 3, of the least estimated" in w for w in column(s, "Reference")[:-1])
+    assert (column(s, "ReferenceError")[:-1] == column(s, "EstimatedError")[-1]).all()
     true = column(s, "TrueError")[:-1]
     assert (true >= 0.0).all() and (true < 0.2).all()
     estimated = column(s, "EstimatedError")

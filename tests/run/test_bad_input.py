@@ -49,7 +49,7 @@ def scenes(folder):
     open(empty, "wb").close()
 
     yield "missing file", os.path.join(folder, "nowhere.gltf"), ["nowhere.gltf"]
-    yield "a folder", folder, ["not a file"]
+    yield "a folder", folder, ["a folder with"]
     yield "truncated text", truncated, ["truncated.gltf"]
     yield "truncated binary", binary, ["truncated.glb"]
     yield "empty file", empty, ["empty.glb"]
