@@ -7,7 +7,7 @@
 /// the share of values covered by their error, the median of error / |true error|, and the greatest
 /// of the parts of the error budget.
 ///
-///   radiosity_coverage [seeds=3] [only: part of the scene's name] [part of the method's]
+///   radiosity_coverage [seeds=3] [only: a scene's name] [part of the method's]
 ///   radiosity_coverage --references [strata=64] [cells=60]   computes the references anew (an hour)
 
 #include "benchmarks/Provenance.h"
@@ -40,7 +40,7 @@ void WriteReferences(int strata, std::size_t cells, const std::string& only)
   file.precision(9);
   for (const test::RadiosityScene& scene : test::RadiosityScenes())
   {
-    if (scene.Name.find(only) == std::string::npos)
+    if (!only.empty() && only != scene.Name)
     {
       continue;
     }
@@ -58,23 +58,28 @@ void WriteReferences(int strata, std::size_t cells, const std::string& only)
         }
       }
     }
-    std::vector<test::PathEstimate> found(wanted.size());
-    ParallelFor(
-      wanted.size(), 0, {},
-      [&](std::size_t k) {
-        found[k] = test::IrradianceByPaths(
-          scene.World, occluders, wanted[k].first, wanted[k].second, strata, 1);
-      },
-      1.0);
-    for (std::size_t k = 0; k < wanted.size(); ++k)
+    for (const bool centroids : { false, true })
     {
-      for (std::size_t b = 0; b < found[k].Irradiance.size(); ++b)
+      std::vector<test::PathEstimate> found(wanted.size());
+      const auto paths = centroids ? test::IrradianceOfCentroid : test::IrradianceByPaths;
+      ParallelFor(
+        wanted.size(), 0, {},
+        [&](std::size_t k) {
+          found[k] =
+            paths(scene.World, occluders, wanted[k].first, wanted[k].second, strata, 1);
+        },
+        1.0);
+      for (std::size_t k = 0; k < wanted.size(); ++k)
       {
-        file << scene.Name << ' ' << wanted[k].first << ' ' << wanted[k].second << ' ' << b << ' '
-             << found[k].Irradiance[b] << ' ' << found[k].Error[b] << '\n';
+        for (std::size_t b = 0; b < found[k].Irradiance.size(); ++b)
+        {
+          file << scene.Name << (centroids ? "@ " : " ") << wanted[k].first << ' '
+               << wanted[k].second << ' ' << b << ' ' << found[k].Irradiance[b] << ' '
+               << found[k].Error[b] << '\n';
+        }
       }
+      std::cerr << scene.Name << ' ' << wanted.size() << " values\n";
     }
-    std::cerr << scene.Name << ' ' << wanted.size() << " values\n";
   }
 }
 
@@ -110,13 +115,13 @@ int main(int argc, char** argv)
   std::map<std::string, test::Calibration> byMethod;
   for (const test::RadiosityScene& scene : test::RadiosityScenes())
   {
-    if (scene.Name.find(only) == std::string::npos)
+    if (!only.empty() && only != scene.Name)
     {
       continue;
     }
     for (const auto& [name, method] : test::RadiosityMethods())
     {
-      if (name.find(onlyMethod) == std::string::npos)
+      if (name.find(onlyMethod) == std::string::npos || (scene.Paths && name != "MonteCarlo"))
       {
         continue;
       }

@@ -187,7 +187,7 @@ void AddStretches(
 } // namespace
 
 double ContourExchange(const SmallPolygon& outer, const SmallPolygon& inner,
-  double relativeTolerance, double absolute, double& error)
+  double relativeTolerance, double absolute, double& error, double& lost)
 {
   // In units of the outer polygon's size: contour integrals of a constant vanish, their rounding
   // does not.
@@ -262,13 +262,15 @@ double ContourExchange(const SmallPolygon& outer, const SmallPolygon& inner,
       : (level < 2 ? std::numeric_limits<double>::infinity() : std::abs(next - singular));
     singular = level == 0 ? added : next;
     value = smooth + singular;
-    error = smoothChange + singularChange + 8.0 * Epsilon * magnitude;
+    lost = 8.0 * Epsilon * magnitude;
+    error = smoothChange + singularChange + lost;
     if (error <= std::max(relativeTolerance * std::abs(value), absolute / scale))
     {
       break;
     }
   }
   error *= scale;
+  lost *= scale;
   return value * scale;
 }
 

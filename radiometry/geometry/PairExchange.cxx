@@ -64,13 +64,15 @@ double Slope(const SmallPolygon& polygon, const Vec3& onPlane, const Vec3& n)
   return high > 0.0 ? (high - low) / (high + low) : 1.0;
 }
 
-SmallPolygon FrontPart(const ExchangePatch& p, const ExchangePatch& plane)
+/// `top`: the greatest height of a corner over the plane.
+SmallPolygon FrontPart(const ExchangePatch& p, const ExchangePatch& plane, double& top)
 {
   double heights[3];
   for (int k = 0; k < 3; ++k)
   {
     heights[k] = HeightOverPlane(p.Corners[k], plane.Corners, plane.Normal);
   }
+  top = std::max({ heights[0], heights[1], heights[2] });
   return ClipToPositive(SmallPolygon(p.Corners), heights);
 }
 
@@ -175,6 +177,7 @@ PairExchangeResult Exchange(const SmallPolygon& a, const Vec3& na, const SmallPo
       result.Error = (Truncation(degreeA, ra / fromA, slopeA) +
                        Truncation(degreeB, rb / fromB, slopeB) + 16.0 * Epsilon) *
         result.Value;
+      result.Rounding = 16.0 * Epsilon * result.Value;
       return result;
     }
   }
@@ -195,12 +198,13 @@ PairExchangeResult Exchange(const SmallPolygon& a, const Vec3& na, const SmallPo
     result.Value =
       Integrate(small, degree, [&](const Vec3& x) { return PointToVisiblePolygon(x, ns, large); });
     result.Error = (Truncation(degree, ratio, slope) + 1e-13) * result.Value;
+    result.Rounding = 1e-13 * result.Value;
     return result;
   }
 
   result.Method = ExchangeMethod::Contour;
   result.Value =
-    std::max(0.0, ContourExchange(small, large, tolerance, absolute, result.Error));
+    std::max(0.0, ContourExchange(small, large, tolerance, absolute, result.Error, result.Rounding));
   return result;
 }
 
@@ -278,10 +282,21 @@ PairExchangeResult Refined(const Piece& whole, const Vec3& na, const Vec3& nb, d
     {
       total.Value += piece.Result.Value;
       total.Error += piece.Result.Error;
+      total.Rounding += piece.Result.Rounding;
     }
     total.Method = ExchangeMethod::Divided;
   }
   return total;
+}
+
+/// What rounding of the corners may make of an exchange, relative: areas that swell, and planes that
+/// turn and shift under what stands up to `topA` and `topB` over them, a third of that in the mean.
+double CornersRounding(const ExchangePatch& a, const ExchangePatch& b, double topA, double topB)
+{
+  const double reach = Length(a.Center - b.Center) + a.Radius + b.Radius;
+  const double shift = a.Rounding + b.Rounding;
+  return a.Swelling + b.Swelling +
+    3.0 * ((shift + b.Turn * reach) / topA + (shift + a.Turn * reach) / topB);
 }
 
 } // namespace
@@ -292,10 +307,23 @@ ExchangePatch::ExchangePatch(const Triangle3& corners)
   , Center(Centroid(corners))
   , Radius(0.0)
   , Area(radiometry::Area(corners))
+  , Turn(0.0)
+  , Swelling(0.0)
 {
+  double reach = 0.0, around = 0.0;
+  Vec3 last = corners[2];
   for (const Vec3& c : corners)
   {
     this->Radius = std::max(this->Radius, Length(c - this->Center));
+    reach = std::max(reach, LengthSquared(c));
+    around += Length(c - last);
+    last = c;
+  }
+  this->Rounding = Epsilon * std::sqrt(reach);
+  if (this->Area > 0.0)
+  {
+    this->Swelling = this->Rounding * around / this->Area;
+    this->Turn = 0.5 * this->Swelling; // at least the shift over the least height
   }
 }
 
@@ -309,22 +337,29 @@ PairExchangeResult PairExchange(
   {
     return {};
   }
-  const SmallPolygon a = FrontPart(i, j);
+  double topA = 0.0, topB = 0.0;
+  const SmallPolygon a = FrontPart(i, j, topA);
   if (a.N == 0)
   {
     return {};
   }
-  const SmallPolygon b = FrontPart(j, i);
+  const SmallPolygon b = FrontPart(j, i, topB);
   if (b.N == 0)
   {
     return {};
   }
   const double tolerance = std::clamp(relativeTolerance, 1e-14, 0.1);
-  const PairExchangeResult result = Exchange(a, i.Normal, b, j.Normal, tolerance, absolute);
-  return result.Method != ExchangeMethod::Contour ||
-      result.Error <= std::max(tolerance * result.Value, absolute)
-    ? result
-    : Refined({ a, b, result }, i.Normal, j.Normal, tolerance, absolute);
+  PairExchangeResult result = Exchange(a, i.Normal, b, j.Normal, tolerance, absolute);
+  if (result.Method == ExchangeMethod::Contour &&
+    result.Error > std::max(tolerance * result.Value, absolute))
+  {
+    result = Refined({ a, b, result }, i.Normal, j.Normal, tolerance, absolute);
+  }
+  const double corners =
+    result.Value > 0.0 ? result.Value * CornersRounding(i, j, topA, topB) : 0.0;
+  result.Error += corners;
+  result.Rounding += corners;
+  return result;
 }
 
 PairExchangeResult PairExchange(
@@ -358,6 +393,7 @@ PairExchangeResult PairExchange(
       const PairExchangeResult pair = PairExchange(p, q, 0.5 * relativeTolerance, absolute);
       sum.Value += pair.Value;
       sum.Error += pair.Error;
+      sum.Rounding += pair.Rounding;
       sum.Method = std::max(sum.Method, pair.Method);
     }
   }

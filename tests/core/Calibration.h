@@ -60,6 +60,7 @@ std::vector<CalibrationCase> CalibrationCases();
 void AddAreaCases(std::vector<CalibrationCase>& cases);
 void AddBeamCases(std::vector<CalibrationCase>& cases);
 void AddSkyCases(std::vector<CalibrationCase>& cases);
+void AddVariantCases(std::vector<CalibrationCase>& cases);
 
 // What the cases share.
 
@@ -71,6 +72,8 @@ struct CalibrationScene
   std::vector<radiometry::Triangle3> Blockers; // absolute coordinates
   std::vector<radiometry::Triangle3> Floor;
   double Tolerance = 0.01;
+  int Side = 0;          // of the floor that is asked for
+  bool Emission = false; // of emitting triangles counts
 };
 using Random = std::mt19937_64;
 double Uniform(Random& random, double lo, double hi);
@@ -82,7 +85,14 @@ Convex2 ShadowOn(double height, const radiometry::Triangle3& blocker, const radi
 bool Blocked(const std::vector<radiometry::Triangle3>& blockers, const radiometry::Vec3& from,
   const radiometry::Vec3& to);
 
-/// The engine's answers for the floor's cells, for points and for the floor's vertices.
+/// The same floor and blockers with more triangles behind them, each a cell.
+radiometry::Scene WithTriangles(
+  const CalibrationScene& scene, const std::vector<radiometry::Triangle3>& more);
+/// The triangles of a convex area light.
+std::vector<radiometry::Triangle3> FanOf(
+  const CalibrationScene& scene, const radiometry::Light& light);
+
+/// The engine's answers for the floor's cells, for points and for the floor's vertices; band by band.
 std::vector<Judged> ComputeCells(const CalibrationScene& scene);
 std::vector<Judged> ComputePoints(
   const CalibrationScene& scene, const std::vector<radiometry::Vec3>& points);

@@ -162,11 +162,15 @@ PointReference ThroughHorizon(CalibrationScene& scene, Random& random)
 
 } // namespace
 
+std::vector<ExtendedKind> AreaKinds()
+{
+  return { { "area, rectangle", true, Rectangle }, { "area, concave", true, Concave },
+      { "area, tilted", false, Tilted }, { "area, through the horizon", false, ThroughHorizon } };
+}
+
 void AddAreaCases(std::vector<CalibrationCase>& cases)
 {
-  AddExtendedCases(cases,
-    { { "area, rectangle", true, Rectangle }, { "area, concave", true, Concave },
-      { "area, tilted", false, Tilted }, { "area, through the horizon", false, ThroughHorizon } });
+  AddExtendedCases(cases, AreaKinds());
 }
 
 } // namespace test

@@ -173,7 +173,9 @@ Light Spot(Random& random, double exponent, double cutoff)
   return light;
 }
 
-std::vector<BeamKind> Kinds()
+} // namespace
+
+std::vector<BeamKind> BeamKinds()
 {
   std::vector<BeamKind> kinds{
     { "point", Above },
@@ -214,6 +216,29 @@ std::vector<BeamKind> Kinds()
   return kinds;
 }
 
+Integral BeamOverCell(const Light& light, const Triangle3& cell,
+  const std::vector<Triangle3>& blockers, double tolerance)
+{
+  std::vector<Convex2> shadows;
+  for (const Triangle3& t : blockers)
+  {
+    shadows.push_back(Shadow(light, t));
+  }
+  const Convex2 region{ { cell[0].x, cell[0].y }, { cell[1].x, cell[1].y },
+    { cell[2].x, cell[2].y } };
+  return IntegrateRegion(region, shadows, Integrand(light), tolerance);
+}
+
+double BeamAt(const Light& light, const Vec3& point, const std::vector<Triangle3>& blockers)
+{
+  const Vec3 to =
+    light.Type == LightType::Directional ? point - 100.0 * light.Direction : light.Position;
+  return Blocked(blockers, point, to) ? 0.0 : Formula(light, point);
+}
+
+namespace
+{
+
 struct Blocking
 {
   const char* Name;
@@ -239,18 +264,10 @@ std::vector<Judged> JudgeCells(const BeamKind& kind, const Blocking& b, std::uin
   Light light;
   Draw(scene, light, random, kind, b);
   std::vector<Judged> values = ComputeCells(scene);
-  std::vector<Convex2> shadows;
-  for (const Triangle3& t : scene.Blockers)
-  {
-    shadows.push_back(Shadow(light, t));
-  }
-  const RegionIntegrand f = Integrand(light);
   for (std::size_t t = 0; t < values.size(); ++t)
   {
     const Triangle3& cell = scene.Floor[t];
-    const Convex2 region{ { cell[0].x, cell[0].y }, { cell[1].x, cell[1].y },
-      { cell[2].x, cell[2].y } };
-    const Integral exact = IntegrateRegion(region, shadows, f, b.ReferenceTolerance);
+    const Integral exact = BeamOverCell(light, cell, scene.Blockers, b.ReferenceTolerance);
     values[t].Exact = exact.Value / Area(cell);
     values[t].ExactError = exact.Error / Area(cell);
   }
@@ -262,11 +279,8 @@ void JudgeAt(const CalibrationScene& scene, const Light& light, const std::vecto
 {
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Vec3 to = light.Type == LightType::Directional ? points[i] - 100.0 * light.Direction
-                                                         : light.Position;
-    const double open = Formula(light, points[i]);
-    values[i].Exact = Blocked(scene.Blockers, points[i], to) ? 0.0 : open;
-    values[i].ExactError = 1e-13 * open;
+    values[i].Exact = BeamAt(light, points[i], scene.Blockers);
+    values[i].ExactError = 1e-13 * Formula(light, points[i]);
   }
 }
 
@@ -315,7 +329,7 @@ void AddBeamCases(std::vector<CalibrationCase>& cases)
   static const Blocking few{ "12 triangles", 12, 0.5, 3, 1e-9 };
   static const Blocking many{ "400 triangles", 400, 0.12, 3, 1e-6 };
   static const Blocking dense{ "3000 triangles", 3000, 0.05, 3, 1e-5 };
-  for (const BeamKind& kind : Kinds())
+  for (const BeamKind& kind : BeamKinds())
   {
     for (const Blocking& b : { open, few, many, dense })
     {

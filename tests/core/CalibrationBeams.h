@@ -14,6 +14,13 @@ struct BeamKind
   std::function<radiometry::Light(Random&)> Make; // above the floor, in absolute coordinates
 };
 
+std::vector<BeamKind> BeamKinds();
+/// What such a light gives one of the floor's cells (its integral) and one of its points.
+Integral BeamOverCell(const radiometry::Light& light, const radiometry::Triangle3& cell,
+  const std::vector<radiometry::Triangle3>& blockers, double tolerance);
+double BeamAt(const radiometry::Light& light, const radiometry::Vec3& point,
+  const std::vector<radiometry::Triangle3>& blockers);
+
 std::vector<BeamKind> WebKinds();
 /// A luminaire's intensity, relative to its greatest, along `way`.
 double WebIntensity(const radiometry::Light& light, const radiometry::Vec3& way);

@@ -95,6 +95,26 @@ double SmoothMean(
   return sum;
 }
 
+} // namespace
+
+Integral OverCell(
+  const PointReference& reference, const Triangle3& cell, const std::vector<Triangle3>& blockers)
+{
+  const bool smooth = blockers.empty();
+  double inner = 0.0;
+  const auto at = [&](const Vec3& p) {
+    const Integral one = reference(p, blockers, smooth ? 1e-10 : 1e-5);
+    inner = std::max(inner, one.Error);
+    return one.Value;
+  };
+  const double fine = smooth ? SmoothMean(cell, 2, true, at) : Mean(cell, 12, at);
+  const double coarse = smooth ? SmoothMean(cell, 2, false, at) : Mean(cell, 6, at);
+  return { fine, inner + std::fabs(fine - coarse) };
+}
+
+namespace
+{
+
 std::vector<Judged> JudgeCells(const ExtendedKind& kind, const Blocking& b, std::uint64_t seed)
 {
   Random random(seed);
@@ -102,18 +122,9 @@ std::vector<Judged> JudgeCells(const ExtendedKind& kind, const Blocking& b, std:
   std::vector<Judged> values = ComputeCells(drawn.Scene);
   for (std::size_t t = 0; t < values.size(); ++t)
   {
-    double inner = 0.0;
-    const auto at = [&](const Vec3& p) {
-      const Integral one =
-        drawn.Reference(p, drawn.Scene.Blockers, b.Count > 0 ? 1e-5 : 1e-10);
-      inner = std::max(inner, one.Error);
-      return one.Value;
-    };
-    const Triangle3& cell = drawn.Scene.Floor[t];
-    const double fine = b.Count > 0 ? Mean(cell, 12, at) : SmoothMean(cell, 2, true, at);
-    const double coarse = b.Count > 0 ? Mean(cell, 6, at) : SmoothMean(cell, 2, false, at);
-    values[t].Exact = fine;
-    values[t].ExactError = inner + std::fabs(fine - coarse);
+    const Integral exact = OverCell(drawn.Reference, drawn.Scene.Floor[t], drawn.Scene.Blockers);
+    values[t].Exact = exact.Value;
+    values[t].ExactError = exact.Error;
   }
   return values;
 }

@@ -23,6 +23,12 @@ struct ExtendedKind
   std::function<PointReference(CalibrationScene& scene, Random& random)> Place;
 };
 
+std::vector<ExtendedKind> AreaKinds();
+std::vector<ExtendedKind> SkyKinds();
+/// Its average over a cell.
+Integral OverCell(const PointReference& reference, const radiometry::Triangle3& cell,
+  const std::vector<radiometry::Triangle3>& blockers);
+
 void AddExtendedCases(std::vector<CalibrationCase>& cases, const std::vector<ExtendedKind>& kinds);
 
 } // namespace test

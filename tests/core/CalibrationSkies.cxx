@@ -134,11 +134,15 @@ PointReference General(CalibrationScene& scene, Random& random)
 
 } // namespace
 
+std::vector<ExtendedKind> SkyKinds()
+{
+  return { { "sky, uniform", true, UniformSky }, { "sky, overcast", true, Overcast },
+      { "sky, CIE general", true, General } };
+}
+
 void AddSkyCases(std::vector<CalibrationCase>& cases)
 {
-  AddExtendedCases(cases,
-    { { "sky, uniform", true, UniformSky }, { "sky, overcast", true, Overcast },
-      { "sky, CIE general", true, General } });
+  AddExtendedCases(cases, SkyKinds());
 }
 
 } // namespace test

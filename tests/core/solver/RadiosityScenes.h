@@ -13,14 +13,18 @@ namespace test
 struct RadiosityScene
 {
   std::string Name;
+  std::string Effect; // that decides over its light
   radiometry::Scene World;
+  bool Paths = false; // light is followed over mirrors and through panes: by rays alone
 };
 std::vector<RadiosityScene> RadiosityScenes();
+void AddHardScenes(std::vector<RadiosityScene>& scenes);
+void AddPathScenes(std::vector<RadiosityScene>& scenes);
 
 /// A value of a scene by paths (PathReference.h), kept in RadiosityReferences.txt.
 struct RadiosityReference
 {
-  std::string Scene;
+  std::string Scene;  // its name, with "@" behind it for the values of cells' centroids
   std::size_t Cell = 0;
   int Side = 0;
   int Band = 0;
