@@ -615,6 +615,12 @@ void Run::Report()
     put(Result.Sky, view.Sky);
     put(Result.Ground, view.Ground);
     put(Result.Blocked, view.Blocked);
+    if (ByHits)
+    {
+      // The rule of three.
+      Result.Unmet.resize(Patches, 0.0);
+      Result.Unmet[name] = std::min(1.0, 3.0 / Rays->Rays(place));
+    }
   }
   double value = 0.0;
   Result.Rows.reserve(2 * Rows.size());
@@ -659,6 +665,11 @@ void Run::Report()
   {
     outcome << "; " << missed << " of " << Result.Rows.size()
             << " view factors are above their tolerance";
+  }
+  if (!Result.Unmet.empty())
+  {
+    outcome << "; view factors to patches that no ray met are below "
+            << *std::max_element(Result.Unmet.begin(), Result.Unmet.end()) << " (95 %)";
   }
   if (WorstUnexplained > 0.0)
   {

@@ -66,6 +66,9 @@ struct ViewFactorResult
   /// sees nothing but patches 1 - Sum.
   std::vector<double> ClosureDefect;
   std::vector<std::uint8_t> Closed; // sees nothing but patches
+  /// By rays alone: what a patch's view factor to one that none of its rays met stays below (95 %),
+  /// by patch; such pairs have no row. Empty: a pair without a row is 0.
+  std::vector<double> Unmet;
 
   double ClosureBefore = 0.0, ClosureAfter = 0.0;         // greatest |1 - Sum| of closed patches
   double ReciprocityBefore = 0.0, ReciprocityAfter = 0.0; // greatest |A_i F_ij - A_j F_ji|/min(A)
@@ -89,7 +92,8 @@ struct ViewFactorResult
 ///   Method  pairs of triangles by PairExchange where nothing stands between (proved by shafts),
 ///           with sampled visibility where something does; far clusters by samples of both ends,
 ///           allotted where they reduce a factor's error most; the environment by rays
-///   Error   covers 95 %: bounds of truncation and the spread of four independent sequences
+///   Error   covers 95 %: bounds of truncation and rounding, and the spread of four independent
+///           sequences
 ///   Predicts where nothing stands between, after every 16th pair of nodes; else after the first round
 ///           of samples
 ///   Cost    O(pairs of triangles) Dense; O(n) and samples Hierarchical; samples MonteCarlo

@@ -19,6 +19,9 @@ constexpr int MostHalvings = 80; // some ten parts each two
 /// A part is no larger than so many widths of the lobe, or distances from its middle.
 constexpr double PartWidths = 2.0;
 constexpr double PartDistances = 1.0;
+/// Of parts that a shadow's edge cuts (V even between 0 and 1) four rays agree on two in five, and are
+/// then wrong by 0.048 in the mean square: twice the root of that, for each part whose rays do not agree.
+constexpr double Unnoticed = 4.0 * 0.048 * 2.0 / 3.0;
 
 struct Part
 {
@@ -258,6 +261,7 @@ void Collect(const std::vector<Part>& parts, std::size_t bands, HighlightSum& su
 {
   sum.Values.assign(bands, 0.0);
   sum.RuleError = sum.ShadowSquares = 0.0;
+  double cut = 0.0, all = 0.0, agreed = 0.0;
   for (const Part& part : parts)
   {
     for (std::size_t b = 0; b < bands; ++b)
@@ -266,7 +270,12 @@ void Collect(const std::vector<Part>& parts, std::size_t bands, HighlightSum& su
     }
     sum.RuleError += part.RuleError;
     sum.ShadowSquares += part.Doubt * part.Integral * part.Doubt * part.Integral;
+    all += part.Integral;
+    cut += part.Doubt > 0.0 ? part.Integral : 0.0;
+    agreed += part.Doubt > 0.0 || part.Seen.empty() ? 0.0 : part.Integral * part.Integral;
   }
+  // Where edges are seen in some parts, there are some in others that no ray noticed.
+  sum.ShadowSquares += all > 0.0 ? Unnoticed * cut / all * agreed : 0.0;
 }
 
 } // namespace

@@ -27,7 +27,9 @@ int Seeds(const test::CalibrationCase& one)
   }
   if (one.Receivers == "cells")
   {
-    return one.Blockers == "3000 triangles" ? 1 : one.Blockers == "none" ? 4 : 2;
+    return one.Blockers == "3000 triangles" ? 1 : one.Blockers == "none" ? 4
+      : one.Blockers == "4 panes" || one.Blockers == "6 triangles"      ? 3
+                                                                        : 2;
   }
   return 6;
 }

@@ -131,11 +131,17 @@ ViewFactorOptions Options(Random& random, ViewFactorMethod method, std::uint64_t
   return options;
 }
 
-/// The value from one patch to another; one without a row is 0 and says so without an error.
+/// The value from one patch to another; one without a row is 0, or below what rays may have missed.
 Judged Factor(const ViewFactorResult& result, std::int32_t from, std::int32_t to)
 {
   Judged judged;
-  judged.Scale = 1e-3; // below 1e-15 it is rounding
+  judged.Scale = 1e-3; // below 1e-18 it is rounding
+  if (!result.Unmet.empty())
+  {
+    const auto i = static_cast<std::size_t>(from), j = static_cast<std::size_t>(to);
+    judged.Error =
+      std::min(result.Unmet[i], result.Unmet[j] * result.Areas[j] / result.Areas[i]);
+  }
   for (const ViewFactorRow& row : result.Rows)
   {
     if (row.From == from && row.To == to)
@@ -293,13 +299,13 @@ void AddViewFactorParts(std::vector<SuitePart>& parts)
       if (m != ViewFactorMethod::Hierarchical)
       {
         parts.push_back({ group, kind.Name, name,
-          [&kind, m](std::uint64_t seed) { return JudgePairs(kind, m, seed); }, rays ? 2.0 : 0.1 });
+          [&kind, m](std::uint64_t seed) { return JudgePairs(kind, m, seed); }, rays ? 0.4 : 0.1 });
       }
     }
     parts.push_back({ group, "a closed room", name,
-      [m](std::uint64_t seed) { return JudgeRoom(m, seed); }, 0.6 });
+      [m](std::uint64_t seed) { return JudgeRoom(m, seed); }, 0.3 });
     parts.push_back({ group, "partly hidden", name,
-      [m](std::uint64_t seed) { return JudgeHidden(12, m, seed); }, 0.4 });
+      [m](std::uint64_t seed) { return JudgeHidden(12, m, seed); }, 0.2 });
     parts.push_back({ group, "sky, partly hidden", name,
       [m](std::uint64_t seed) { return JudgeSky(12, m, seed); }, 10.0 });
   }
