@@ -35,6 +35,12 @@ BandColors::BandColors(vtkFieldData* field, radiometry::imaging::BandValues valu
   }
 }
 
+bool BandColors::IsSpectral(vtkDataArray* array) const
+{
+  const int bands = array->GetNumberOfComponents();
+  return bands != 1 && bands != 3 && this->Spectrum && this->Spectrum->GetBands() == bands;
+}
+
 std::array<double, 3> BandColors::Of(vtkDataArray* array, vtkIdType tuple) const
 {
   const int bands = array->GetNumberOfComponents();

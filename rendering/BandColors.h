@@ -28,6 +28,8 @@ public:
   BandColors(vtkFieldData* field, radiometry::imaging::BandValues values);
 
   std::array<double, 3> Of(vtkDataArray* array, vtkIdType tuple) const;
+  /// Whether the observer makes the colours of an array.
+  bool IsSpectral(vtkDataArray* array) const;
   const std::string& GetProblem() const { return this->Problem; }
 
 private:

@@ -63,6 +63,7 @@ public:
     const std::array<double, 3> rgb = this->Colors->Of(this->Array, i);
     return { rgb[0], rgb[1], rgb[2] };
   }
+  bool IsSpectral() const { return this->Array && this->Colors->IsSpectral(this->Array); }
   const char* Name;
 
 private:
@@ -152,6 +153,10 @@ void CollectFromPolyData(vtkPolyData* data, CollectedLights& result)
       result.Problem = text.str();
     }
   };
+  for (const LightArray* array : { &intensity, &ambient, &specular })
+  {
+    result.Spectral = result.Spectral || array->IsSpectral();
+  }
   if (!colors.GetProblem().empty() && result.Problem.empty())
   {
     result.Problem = "lights: " + colors.GetProblem();

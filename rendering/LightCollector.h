@@ -35,9 +35,27 @@ struct CollectedLights
   std::vector<radiometry::DisplayLight> Lights;
   std::vector<LightFrame> Frames;
   std::vector<LightKey> Keys; // type -1: a light that no data knows
+  std::vector<int> Columns; // of each light its place among the shares of LightVisibility; -1: none
+  bool Spectral = false; // bands became colours by the observer
   int NotDrawn = 0;    // enabled lights that the mapper has no formula for
   std::string Problem; // what was wrong with the arrays; empty: nothing
 };
+
+/// Kinds of lights that are drawn alike, in the order in which they are packed.
+enum class LightKind
+{
+  Directional,
+  Point,
+  Spot,
+  Luminaire,
+  Area,
+  Sky
+};
+constexpr int LightKinds = 6;
+LightKind KindOf(const radiometry::DisplayLight& light);
+
+/// Whether a light, times `scale`, is on and not black.
+bool GivesLight(const radiometry::DisplayLight& light, double scale);
 
 /// Reads the enabled lights of a polydata, or of all polydata in a tree, in the project's light
 /// arrays (docs/arrays.md).
@@ -72,7 +90,7 @@ radiometry::Vec3 TransformDirection(vtkMatrix4x4* m, const radiometry::Vec3& d);
 /// Lights as the shaders read them: six RGBA texels a light, in local coordinates, directional
 /// lights first, then points, then spots.
 ///   0  x y z of the position, or of the direction that the light comes from; its place among the
-///      shares of LightVisibility (-1, as it is packed: it has none)
+///      shares of LightVisibility (-1: it has none)
 ///   1  axis of the cone, 1 - cosine of its half-angle
 ///   2  diffuse colour, exponent
 ///   3  ambient colour, cosine of the inner half-angle
@@ -88,9 +106,8 @@ struct PackedLights
 {
   static constexpr int TexelsPerLight = 6;
   std::vector<float> Texels;
-  std::vector<LightKey> Keys; // of each light that was packed
   // [begin, end) of directional, point and spot lights, luminaires, area lights, skies.
-  std::array<std::array<int, 2>, 6> Ranges{};
+  std::array<std::array<int, 2>, LightKinds> Ranges{};
   int Count() const { return this->Ranges.back()[1]; }
   ShaderFeatures Features; // what these lights need of the shader
 };

@@ -35,6 +35,34 @@ bool NeedsExtendedLights(const ShaderFeatures& features)
   return features.count("Luminaire") + features.count("Area") + features.count("Sky") > 0;
 }
 
+LightKind KindOf(const radiometry::DisplayLight& light)
+{
+  if (light.Sky)
+  {
+    return LightKind::Sky;
+  }
+  if (!light.Polygon.empty())
+  {
+    return LightKind::Area;
+  }
+  if (light.Position[3] == 0.0)
+  {
+    return LightKind::Directional;
+  }
+  if (light.Web)
+  {
+    return LightKind::Luminaire;
+  }
+  return light.CosCutoff > -1.0 ? LightKind::Spot : LightKind::Point;
+}
+
+bool GivesLight(const radiometry::DisplayLight& light, double scale)
+{
+  const radiometry::Rgb black;
+  return light.Enabled && scale != 0.0 &&
+    !(light.Diffuse == black && light.Ambient == black && light.Specular == black);
+}
+
 namespace
 {
 
@@ -55,35 +83,8 @@ bool IsBlack(const Rgb& c)
   return c == Rgb();
 }
 
-enum Kind
-{
-  DirectionalKind,
-  PointKind,
-  SpotKind,
-  LuminaireKind,
-  AreaKind,
-  SkyKind,
-  Kinds
-};
-const char* const KindFeatures[Kinds] = { "Directional", "Point", "Spot", "Luminaire", "Area",
+const char* const KindFeatures[LightKinds] = { "Directional", "Point", "Spot", "Luminaire", "Area",
   "Sky" };
-
-Kind KindOf(const DisplayLight& light)
-{
-  if (light.Sky)
-  {
-    return SkyKind;
-  }
-  if (!light.Polygon.empty())
-  {
-    return AreaKind;
-  }
-  if (light.Position[3] == 0.0)
-  {
-    return DirectionalKind;
-  }
-  return light.Web ? LuminaireKind : (light.CosCutoff > -1.0 ? SpotKind : PointKind);
-}
 
 /// A rotation: where the axes go, made square again where the map is not conformal.
 std::array<Vec3, 3> RowsOf(vtkMatrix4x4* toLocal)
@@ -163,8 +164,8 @@ int AddLuminaire(const DisplayLight& light, vtkMatrix4x4* toLocal, Appendix& aft
 }
 
 /// An area light or a sky: where its data is, and its colour.
-void PutExtended(const DisplayLight& light, vtkMatrix4x4* toLocal, double unit, Appendix& after,
-  PackedLights& packed)
+void PutExtended(const DisplayLight& light, vtkMatrix4x4* toLocal, double unit, int column,
+  Appendix& after, PackedLights& packed)
 {
   const Rgb color = unit * light.Diffuse;
   const int place = after.Next();
@@ -175,7 +176,7 @@ void PutExtended(const DisplayLight& light, vtkMatrix4x4* toLocal, double unit, 
     add(sky.Constant);
     std::for_each(sky.Linear.begin(), sky.Linear.end(), add);
     std::for_each(sky.Quadratic.begin(), sky.Quadratic.end(), add);
-    Put(packed.Texels, place, 0.0, 0.0, -1.0);
+    Put(packed.Texels, place, 0.0, 0.0, column);
   }
   else
   {
@@ -186,7 +187,7 @@ void PutExtended(const DisplayLight& light, vtkMatrix4x4* toLocal, double unit, 
     }
     // A mirror turns the corners round; the light keeps its front.
     const double sides = light.PolygonTwoSided ? 0.0 : (toLocal->Determinant() < 0.0 ? -1.0 : 1.0);
-    Put(packed.Texels, place, static_cast<double>(light.Polygon.size()), sides, -1.0);
+    Put(packed.Texels, place, static_cast<double>(light.Polygon.size()), sides, column);
   }
   Put(packed.Texels, 0.0, 0.0, 0.0, 0.0);
   Put(packed.Texels, color.r, color.g, color.b, 0.0);
@@ -208,17 +209,14 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
   // Radiance of a Lambertian surface is E/pi: the division is done once, here.
   const double unit = scale *
     (reflection == radiometry::ReflectionModel::Physical ? 1.0 / vtkMath::Pi() : 1.0);
-  const auto taken = [&](const DisplayLight& light) {
-    const bool black =
-      IsBlack(light.Diffuse) && IsBlack(light.Ambient) && IsBlack(light.Specular);
-    return light.Enabled && !black && scale != 0.0;
-  };
+  const auto taken = [scale](const DisplayLight& light) { return GivesLight(light, scale); };
   Appendix after(PackedLights::TexelsPerLight *
     static_cast<int>(std::count_if(lights.Lights.begin(), lights.Lights.end(), taken)));
-  for (int kind = 0; kind < Kinds; ++kind)
+  for (int number = 0; number < LightKinds; ++number)
   {
+    const auto kind = static_cast<LightKind>(number);
     const int texels = static_cast<int>(packed.Texels.size() / 4);
-    packed.Ranges[kind][0] = texels / PackedLights::TexelsPerLight;
+    packed.Ranges[number][0] = texels / PackedLights::TexelsPerLight;
     for (std::size_t i = 0; i < lights.Lights.size(); ++i)
     {
       const DisplayLight& light = lights.Lights[i];
@@ -226,16 +224,16 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
       {
         continue;
       }
-      const bool directional = kind == DirectionalKind;
-      const bool spot = kind == SpotKind;
+      const int column = lights.Columns.empty() ? -1 : lights.Columns[i];
+      const bool directional = kind == LightKind::Directional;
+      const bool spot = kind == LightKind::Spot;
       vtkMatrix4x4* toLocal = lights.Frames[i] == LightFrame::Scene
         ? local.FromWorld.Get()
         : (lights.Frames[i] == LightFrame::Object ? objectToLocal.Get() : local.FromView.Get());
-      if (kind == AreaKind || kind == SkyKind)
+      if (kind == LightKind::Area || kind == LightKind::Sky)
       {
-        PutExtended(light, toLocal, unit, after, packed);
-        packed.Keys.push_back(lights.Keys[i]);
-        packed.Features.insert({ KindFeatures[kind], "Lights" });
+        PutExtended(light, toLocal, unit, column, after, packed);
+        packed.Features.insert({ KindFeatures[number], "Lights" });
         continue;
       }
       const Vec3 given{ light.Position[0], light.Position[1], light.Position[2] };
@@ -251,9 +249,8 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
       const Rgb specular = unit / c * light.Specular;
       const Rgb ambient = scale / c * light.Ambient;
       const double width = light.CosInnerCutoff - light.CosCutoff;
-      Put(packed.Texels, place.x, place.y, place.z, -1.0);
-      packed.Keys.push_back(lights.Keys[i]);
-      if (kind == LuminaireKind)
+      Put(packed.Texels, place.x, place.y, place.z, column);
+      if (kind == LightKind::Luminaire)
       {
         Put(packed.Texels, AddLuminaire(light, toLocal, after), 0.0, 0.0, 0.0);
       }
@@ -269,7 +266,7 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
       Put(packed.Texels, a[0], a[1] * metersPerUnit,
         square ? 1.0 : a[2] * metersPerUnit * metersPerUnit, 0.0);
 
-      packed.Features.insert({ KindFeatures[kind], "Lights" });
+      packed.Features.insert({ KindFeatures[number], "Lights" });
       const auto need = [&packed](bool needed, const char* feature) {
         if (needed)
         {
@@ -287,7 +284,7 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
         need(constant, "NoFallOff");
       }
     }
-    packed.Ranges[kind][1] =
+    packed.Ranges[number][1] =
       static_cast<int>(packed.Texels.size() / 4) / PackedLights::TexelsPerLight;
   }
   packed.Texels.insert(packed.Texels.end(), after.Texels.begin(), after.Texels.end());

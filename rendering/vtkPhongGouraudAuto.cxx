@@ -21,6 +21,7 @@
 
 using radiometry::DisplayLight;
 using radiometry::DisplayMaterial;
+using radiometry::Effect;
 using radiometry::Rgb;
 using radiometry::Vec3;
 using vtkradiometry::ShadingChoice;
@@ -135,8 +136,9 @@ radiometry::ShadedScene vtkPhongGouraudHelper::SceneOf(
 
   radiometry::ShadedScene scene;
   scene.Model.Reflection = static_cast<radiometry::ReflectionModel>(mapper->ReflectionModel);
-  scene.Model.LocalViewer = mapper->LocalViewer && !camera->GetParallelProjection();
-  scene.Model.TwoSided = mapper->TwoSided || act->GetBackfaceProperty();
+  scene.Model.LocalViewer = !camera->GetParallelProjection();
+  scene.Model.TwoSided = true;
+  scene.Model.GlobalAmbient = Scaled(1.0, mapper->GlobalAmbient);
   scene.Eye = TransformPoint(viewToWorld, {});
   scene.Viewer = TransformDirection(viewToWorld, { 0.0, 0.0, 1.0 });
   for (std::size_t i = 0; i < collected.Lights.size(); ++i)
@@ -153,6 +155,10 @@ radiometry::ShadedScene vtkPhongGouraudHelper::SceneOf(
                                  : TransformPoint(toWorld, given);
       light.Position = { { place.x, place.y, place.z, light.Position[3] == 0.0 ? 0.0 : 1.0 } };
       light.SpotDirection = TransformDirection(toWorld, light.SpotDirection);
+      for (Vec3& corner : light.Polygon)
+      {
+        corner = TransformPoint(toWorld, corner);
+      }
     }
     light.Attenuation[1] *= mapper->MetersPerUnit;
     light.Attenuation[2] *= mapper->MetersPerUnit * mapper->MetersPerUnit;
@@ -185,27 +191,18 @@ radiometry::ShadedScene vtkPhongGouraudHelper::SceneOf(
   }
   else if (mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE)
   {
-    for (vtkradiometry::DrawnBlock* drawn : this->Blocks())
-    {
-      const BlockField field = this->FindField(vtkradiometry::DataOf(*drawn));
-      for (vtkDataArray* array : { field.Front, field.Back })
-      {
-        for (int c = 0; array && c < array->GetNumberOfComponents(); ++c)
-        {
-          double range[2];
-          array->GetRange(range, c);
-          most = std::max({ most, std::abs(mapper->FieldScale * range[0]),
-            std::abs(mapper->FieldScale * range[1]) });
-        }
-      }
-    }
+    most = std::abs(mapper->FieldScale) * this->FieldMost;
   }
   else if (this->UsesScalarColors() || this->Mapper()->GetCompositeDataDisplayAttributes())
   {
     for (DisplayMaterial* side : { &scene.Front, &scene.Back })
     {
-      side->Diffuse = act->GetProperty()->GetDiffuse() * Rgb{ 1.0, 1.0, 1.0 };
-      side->Ambient = act->GetProperty()->GetAmbient() * Rgb{ 1.0, 1.0, 1.0 };
+      // A block without a colour of its own has the property's.
+      const auto least = [](const Rgb& c, double one) {
+        return Rgb{ std::max(c.r, one), std::max(c.g, one), std::max(c.b, one) };
+      };
+      side->Diffuse = least(side->Diffuse, act->GetProperty()->GetDiffuse());
+      side->Ambient = least(side->Ambient, act->GetProperty()->GetAmbient());
     }
     return scene;
   }
@@ -217,6 +214,26 @@ radiometry::ShadedScene vtkPhongGouraudHelper::SceneOf(
   {
     side->Diffuse = Rgb{ most, most, most };
     side->Ambient = act->GetProperty()->GetAmbient() * side->Diffuse;
+  }
+  return scene;
+}
+
+radiometry::ShadedScene vtkPhongGouraudHelper::DrawnSceneOf(
+  vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected)
+{
+  radiometry::ShadedScene scene = this->SceneOf(ren, act, collected);
+  scene.Model.LocalViewer = this->Effects.Simulates(Effect::LocalViewer);
+  scene.Model.TwoSided = this->Effects.Simulates(Effect::TwoSided);
+  for (DisplayMaterial* side : { &scene.Front, &scene.Back })
+  {
+    if (!this->Effects.Simulates(Effect::Specular))
+    {
+      side->Specular = Rgb();
+    }
+    if (!this->Effects.Simulates(Effect::GlobalAmbient))
+    {
+      side->Ambient = Rgb();
+    }
   }
   return scene;
 }
@@ -247,7 +264,7 @@ void vtkPhongGouraudHelper::DecideShading(
     return;
   }
   const int mode = mapper->FieldMode;
-  if (mode == vtkPhongGouraudMapper::FIELD_ON || this->UsesVisibility())
+  if (mode == vtkPhongGouraudMapper::FIELD_ON || this->Effects.Simulates(Effect::Occlusion))
   {
     reason = "Phong: highlights on a field, and lights whose shadows are known, are drawn by pixel";
     return;
@@ -269,7 +286,7 @@ void vtkPhongGouraudHelper::DecideShading(
     return;
   }
   const bool materials = mode == vtkPhongGouraudMapper::FIELD_MATERIALS;
-  if (materials && this->SpecularMaterials)
+  if (materials && this->Effects.Simulates(Effect::Specular))
   {
     reason = "Phong: highlights whose exponent belongs to the cell";
     return;
@@ -292,8 +309,12 @@ void vtkPhongGouraudHelper::DecideShading(
   }
   vtkNew<vtkMatrix4x4> objectToWorld;
   act->GetModelToWorldMatrix(objectToWorld);
-  const ShadingChoice::State state = this->Choice.Decide(this->SceneOf(ren, act, collected),
-    objectToWorld->GetData(), mapper->ShadingTolerance, mapper->ShadingTimeShare);
+  // What effects that Auto left out may change is spent: one tolerance for both.
+  const double left =
+    std::max(0.0, mapper->ShadingTolerance - this->Effects.Plan().DroppedBound());
+  const ShadingChoice::State state =
+    this->Choice.Decide(this->DrawnSceneOf(ren, act, collected), objectToWorld->GetData(), left,
+      mapper->ShadingTimeShare);
   char text[200];
   if (state == ShadingChoice::State::Changing)
   {

@@ -204,6 +204,9 @@ void vtkPhongGouraudHelper::BuildBufferObjects(vtkRenderer* ren, vtkActor* act)
   this->FieldOfCells = false;
   this->FieldOfPoints = false;
   this->FieldOfBack = false;
+  this->SpectralField = false;
+  this->FieldMost = 0.0;
+  this->BoxesMade = false;
   this->ConstantInCells = mapper->Shading == vtkPhongGouraudMapper::AUTO;
   bool empty = true;
   for (const DrawnBlock* drawn : this->Blocks())
@@ -298,9 +301,12 @@ void vtkPhongGouraudHelper::AppendPointField(
   values->SetNumberOfComponents(3);
   values->SetNumberOfTuples(points);
   values->Fill(0.0);
+  this->SpectralField = this->SpectralField || (field && colors.IsSpectral(field));
   for (vtkIdType i = 0; field && i < points; ++i)
   {
-    values->SetTuple(i, colors.Of(field, i).data());
+    const std::array<double, 3> rgb = colors.Of(field, i);
+    this->NoteField(rgb);
+    values->SetTuple(i, rgb.data());
   }
   this->VBOs->AppendDataArray(attribute, values, VTK_FLOAT);
 }
@@ -311,7 +317,8 @@ void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
   vtkPhongGouraudMapper* mapper = this->Mapper();
   const bool surface = act->GetProperty()->GetRepresentation() == VTK_SURFACE;
   const bool frames = surface &&
-    (mapper->FieldMode != vtkPhongGouraudMapper::FIELD_ON || this->Shines(act)) &&
+    (mapper->FieldMode != vtkPhongGouraudMapper::FIELD_ON ||
+      (mapper->WantsHighlights() && this->Shines(act))) &&
     (mapper->Shading == vtkPhongGouraudMapper::FLAT || !this->HasPointNormals());
   const bool fields = surface && this->FieldOfCells;
   if (!frames)
@@ -356,9 +363,11 @@ void vtkPhongGouraudHelper::BuildCellBuffers(vtkRenderer* ren, vtkActor* act)
       for (std::size_t side = 0; side < sides; ++side)
       {
         vtkDataArray* array = side == 1 && field.Back ? field.Back : field.Front;
+        this->SpectralField = this->SpectralField || colors.IsSpectral(array);
         for (std::size_t i = 0; i < map->GetSize(); ++i)
         {
           const std::array<double, 3> rgb = colors.Of(array, map->GetValue(i));
+          this->NoteField(rgb);
           const std::size_t texel = (static_cast<std::size_t>(offsets[0]) + i) * sides + side;
           SetTexel(fieldTexels, texel, rgb[0], rgb[1], rgb[2]);
         }

@@ -15,6 +15,8 @@
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderer.h"
+#include "vtkOpenGLState.h"
 #include "vtkOpenGLVertexBufferObject.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkPointData.h"
@@ -220,8 +222,7 @@ void vtkPhongGouraudHelper::PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectTo
   }
 }
 
-vtkradiometry::CollectedLights vtkPhongGouraudHelper::CollectLights(
-  vtkRenderer* ren, vtkActor* act)
+vtkradiometry::CollectedLights vtkPhongGouraudHelper::CollectLights(vtkRenderer* ren)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
   const auto model = static_cast<radiometry::ReflectionModel>(mapper->ReflectionModel);
@@ -231,7 +232,7 @@ vtkradiometry::CollectedLights vtkPhongGouraudHelper::CollectLights(
   {
     data = vtkDataObject::SafeDownCast(shown->Get(vtkPhongGouraudMapper::LIGHT_DATA()));
   }
-  const vtkradiometry::CollectedLights collected = data
+  vtkradiometry::CollectedLights collected = data
     ? vtkradiometry::CollectFromData(data)
     : vtkradiometry::CollectFromRenderer(ren, model == radiometry::ReflectionModel::Physical);
   if (!collected.Problem.empty() && collected.Problem != mapper->ReportedProblem)
@@ -239,15 +240,21 @@ vtkradiometry::CollectedLights vtkPhongGouraudHelper::CollectLights(
     vtkErrorWithObjectMacro(mapper, << collected.Problem);
   }
   mapper->ReportedProblem = collected.Problem;
+  this->AssignVisibility(collected);
+  return collected;
+}
 
+void vtkPhongGouraudHelper::PackLights(
+  vtkActor* act, const vtkradiometry::CollectedLights& collected)
+{
+  vtkPhongGouraudMapper* mapper = this->Mapper();
   vtkNew<vtkMatrix4x4> objectToWorld;
   act->GetModelToWorldMatrix(objectToWorld);
-  this->PlaceOrigin(ren, objectToWorld);
-  this->Lights = vtkradiometry::PackLights(collected, this->Local, objectToWorld, model,
-    mapper->LightScale, mapper->MetersPerUnit);
+  this->Lights = vtkradiometry::PackLights(collected, this->Local, objectToWorld,
+    static_cast<radiometry::ReflectionModel>(mapper->ReflectionModel), mapper->LightScale,
+    mapper->MetersPerUnit);
   mapper->NumberOfLightsDrawn = this->Lights.Count();
   mapper->NumberOfLightsNotDrawn = collected.NotDrawn;
-  return collected;
 }
 
 //------------------------------------------------------------------------------
@@ -259,9 +266,18 @@ void vtkPhongGouraudHelper::RenderPieceStart(vtkRenderer* ren, vtkActor* act)
   if (!ren->GetSelector())
   {
     // After the buffers: the lights' coordinates are theirs.
-    const vtkradiometry::CollectedLights collected = this->CollectLights(ren, act);
-    this->AssignVisibility();
+    vtkradiometry::CollectedLights collected = this->CollectLights(ren);
+    this->PlanEffects(ren, act, collected);
+    vtkNew<vtkMatrix4x4> objectToWorld;
+    act->GetModelToWorldMatrix(objectToWorld);
+    this->PlaceOrigin(ren, objectToWorld);
+    this->PackLights(act, collected);
     this->DecideShading(ren, act, collected);
+    if (this->Effects.LeavesOut(radiometry::Effect::Translucency))
+    {
+      // Drawn among translucent surfaces, but hides what is behind.
+      static_cast<vtkOpenGLRenderer*>(ren)->GetState()->vtkglDepthMask(GL_TRUE);
+    }
     this->LightBuffer.Upload(ren, std::vector<float>(this->Lights.Texels));
     for (FloatBuffer* buffer : this->Buffers())
     {

@@ -12,6 +12,7 @@
 #include "BandColors.h"
 #include "ColorSteps.h"
 #include "LightCollector.h"
+#include "PictureEffects.h"
 #include "ShadingChoice.h"
 #include "ShaderTemplate.h"
 
@@ -94,14 +95,28 @@ private:
   bool UsesScalarColors();
   /// Everything that decides the text of the shaders.
   vtkradiometry::ShaderFeatures Needs(vtkRenderer* ren, vtkActor* act);
-  void NeedLights(vtkradiometry::ShaderFeatures& needs, vtkRenderer* ren, vtkActor* act);
+  void NeedLights(vtkradiometry::ShaderFeatures& needs, vtkActor* act);
   int ChooseShading(const vtkradiometry::ShaderFeatures& needs, bool highlights);
   void NeedShading(vtkradiometry::ShaderFeatures& needs, int shading);
-  vtkradiometry::CollectedLights CollectLights(vtkRenderer* ren, vtkActor* act);
+  /// The lights of this frame; what is left of them, packed.
+  vtkradiometry::CollectedLights CollectLights(vtkRenderer* ren);
+  void PackLights(vtkActor* act, const vtkradiometry::CollectedLights& collected);
+  /// The effect plan of this frame; takes out of the lights what it leaves out.
+  void PlanEffects(vtkRenderer* ren, vtkActor* act, vtkradiometry::CollectedLights& collected);
+  vtkradiometry::FrameFacts FactsOf(
+    vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected);
+  vtkradiometry::BoundedPicture PictureOf(
+    vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected);
+  void NoteMaterials(vtkActor* act, vtkradiometry::BoundedPicture& picture);
+  const std::vector<radiometry::SurfaceBox>& BoxesOfSurface();
+  bool MapperEmits();
   void PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectToWorld);
   /// Shading Auto: the triangles to decide about, what they are lit by, and once a frame the choice.
   void BuildChoice(vtkActor* act);
+  /// ... with all effects; without those that the plan leaves out.
   radiometry::ShadedScene SceneOf(
+    vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected);
+  radiometry::ShadedScene DrawnSceneOf(
     vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected);
   void DecideShading(
     vtkRenderer* ren, vtkActor* act, const vtkradiometry::CollectedLights& collected);
@@ -117,6 +132,13 @@ private:
     bool OfCells = false;
   };
   BlockField FindField(vtkPolyData* block);
+  void NoteField(const std::array<double, 3>& rgb)
+  {
+    for (const double c : rgb)
+    {
+      this->FieldMost = c > this->FieldMost ? c : (-c > this->FieldMost ? -c : this->FieldMost);
+    }
+  }
   void AppendPointField(const char* attribute, vtkDataArray* field, vtkIdType points,
     const vtkradiometry::BandColors& colors);
   /// What the bands of a block's field look like.
@@ -142,13 +164,12 @@ private:
   void PrepareVisibility();
   void AppendVisibility(vtkPolyData* block, bool newPoints);
   void BuildVisibility(vtkRenderer* ren, vtkActor* act);
-  void AssignVisibility();
-  /// Some light of this frame has shares.
-  bool UsesVisibility() const { return this->LightsKnown; }
+  void NoteVisibilityLoss();
+  void AssignVisibility(vtkradiometry::CollectedLights& collected);
   void NeedVisibility(vtkradiometry::ShaderFeatures& needs) const;
   /// Field mode with highlights: is there a block whose cells have a material of their own?
   bool HighlightsOfCells();
-  /// Field mode with highlights: is there a material that has some?
+  /// Field mode: is there a material that has highlights?
   bool Shines(vtkActor* act);
   void PrepareFalseColor();
   void AppendScalars(vtkPolyData* block, bool newPoints);
@@ -165,7 +186,15 @@ private:
   bool MaterialsOfHighlights = false; // field mode: some block has materials
   bool SpecularMaterials = false; // some cell's material has a highlight
   bool EmittingMaterials = false; // ... gives light
+  bool SpectralMaterials = false; // ... is made of bands
+  bool SpectralField = false;
+  double FieldMost = 0.0; // greatest absolute colour of the field, before FieldScale
   bool ConstantInCells = false; // one normal at all points of each cell
+
+  // Effects
+  vtkradiometry::PictureEffects Effects;
+  std::vector<radiometry::SurfaceBox> Boxes; // of the triangles, some each, in object coordinates
+  bool BoxesMade = false;
 
   // Shading Auto
   vtkradiometry::ShadingChoice Choice;
@@ -181,7 +210,7 @@ private:
   bool VisibilityOfCells = false;
   bool VisibilityOfBack = false;
   int VisibilityGroupsOfPoints = 0; // four lights each
-  bool LightsKnown = false;         // a light of this frame has shares
+  std::vector<double> VisibilityLoss; // greatest |1 - share| of each column
 
   // False colour
   bool ScalarsOfCells = false;

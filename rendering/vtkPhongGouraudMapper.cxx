@@ -4,7 +4,10 @@
 #include "vtkLinearFloatPass.h"
 #include "vtkPhongGouraudHelper.h"
 
+#include "radiometry/effects/EffectPlan.h"
+
 #include "vtkDataArray.h"
+#include "vtkHardwareSelector.h"
 #include "vtkImageData.h"
 #include "vtkInformationObjectBaseKey.h"
 #include "vtkObjectFactory.h"
@@ -14,6 +17,7 @@
 #include "vtkRenderPass.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +25,11 @@
 vtkStandardNewMacro(vtkPhongGouraudMapper);
 vtkInformationKeyRestrictedMacro(vtkPhongGouraudMapper, LIGHT_DATA, ObjectBase, "vtkDataObject");
 
-vtkPhongGouraudMapper::vtkPhongGouraudMapper() = default;
+vtkPhongGouraudMapper::vtkPhongGouraudMapper()
+  : EffectSwitches(radiometry::EffectCount, EFFECT_AUTO)
+{
+}
+
 vtkPhongGouraudMapper::~vtkPhongGouraudMapper() = default;
 
 vtkPhongGouraudProduct* vtkPhongGouraudMapper::vtkPhongGouraudFactory()
@@ -42,6 +50,10 @@ void vtkPhongGouraudMapper::Render(vtkRenderer* renderer, vtkActor* actor)
   this->Window = window;
   this->GouraudTriangles = 0.0;
   this->CountedTriangles = 0.0;
+  if (!renderer->GetSelector())
+  {
+    this->FramePlans.clear();
+  }
   this->Superclass::Render(renderer, actor);
 }
 
@@ -66,6 +78,11 @@ void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)
     this->SetHighlights(own->Highlights);
     this->SetUseLightVisibility(own->UseLightVisibility);
     this->SetEveryEffect(own->EveryEffect);
+    for (int effect = 0; effect < static_cast<int>(own->EffectSwitches.size()); ++effect)
+    {
+      this->SetEffectSwitch(effect, own->EffectSwitches[static_cast<std::size_t>(effect)]);
+    }
+    this->SetEffectTolerance(own->EffectTolerance);
     this->SetShadingTolerance(own->ShadingTolerance);
     this->SetShadingTimeShare(own->ShadingTimeShare);
   }
@@ -83,6 +100,7 @@ double vtkPhongGouraudMapper::MeasureGreatestDifference(vtkRenderer* renderer)
   const vtkSmartPointer<vtkRenderPass> pass = renderer->GetPass();
   const int shading = this->Shading;
   const double share = this->ShadingTimeShare;
+  const double effects = this->EffectTolerance;
   vtkNew<vtkLinearFloatPass> target;
   renderer->SetPass(target);
   const auto draw = [&]() {
@@ -100,7 +118,9 @@ double vtkPhongGouraudMapper::MeasureGreatestDifference(vtkRenderer* renderer)
   this->SetShadingTimeShare(VTK_DOUBLE_MAX);
   const vtkSmartPointer<vtkDataArray> given = draw();
   this->SetShading(PHONG);
+  this->SetEffectTolerance(0.0);
   const vtkSmartPointer<vtkDataArray> phong = draw();
+  this->SetEffectTolerance(effects);
   this->SetShading(shading);
   this->SetShadingTimeShare(share);
   renderer->SetPass(pass);
@@ -218,6 +238,7 @@ void vtkPhongGouraudMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Highlights: " << this->Highlights << "\n";
   os << indent << "UseLightVisibility: " << this->UseLightVisibility << "\n";
   os << indent << "EveryEffect: " << this->EveryEffect << "\n";
+  os << indent << "EffectTolerance: " << this->EffectTolerance << "\n";
   os << indent << "ShadingTolerance: " << this->ShadingTolerance << "\n";
   os << indent << "ShadingTimeShare: " << this->ShadingTimeShare << "\n";
   os << indent << "GouraudShare: " << this->GetGouraudShare() << "\n";

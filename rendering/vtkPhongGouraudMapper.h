@@ -28,12 +28,19 @@
 #include "vtkSmartPointer.h"              // for ivars
 #include "vtkWeakPointer.h"               // for ivars
 
+#include <memory> // for ivars
 #include <string> // for ivars
+#include <vector> // for ivars
 
+namespace radiometry
+{
+class EffectPlan;
+}
 class vtkInformationObjectBaseKey;
 class vtkPolyData;
 class vtkRenderWindow;
 class vtkRenderer;
+class vtkTable;
 
 class VTKRADIOMETRYRENDERING_EXPORT vtkPhongGouraudMapper : public vtkPhongGouraudMapperBase
 {
@@ -131,8 +138,8 @@ public:
 
   ///@{
   /**
-   * Draws the renderer's window twice into float targets, as it is set and with Phong shading, and
-   * returns the greatest difference of any colour at any pixel; negative where it cannot. Shading
+   * Draws the renderer's window twice into float targets, as it is set and with Phong shading (and
+   * without EffectTolerance), and returns the greatest difference of any colour at any pixel; negative where it cannot. Shading
    * Auto decides at once for it. The result is kept: GreatestDifference, negative before the first.
    */
   double MeasureGreatestDifference(vtkRenderer* renderer);
@@ -306,12 +313,58 @@ public:
 
   ///@{
   /**
-   * Off (default): shaders hold what the scene needs. On: the code of every effect of lights and
-   * materials, for comparing their cost; the picture stays the same.
+   * Off (default): shaders hold what the scene needs. On: every effect that is on Auto is switched
+   * on, for comparing their cost; the picture stays the same.
    */
   vtkSetMacro(EveryEffect, bool);
   vtkGetMacro(EveryEffect, bool);
   vtkBooleanMacro(EveryEffect, bool);
+  ///@}
+
+  ///@{
+  /**
+   * One effect: as the scene calls for it (EFFECT_AUTO, default), on though it is not called for, or
+   * off: drawn without. Effects by their names in the effect plan: Specular (highlights),
+   * GlobalAmbient (ambient light), TwoSided, LocalViewer, Translucency, Emission, SpotShape (off: spots
+   * shine as points), Attenuation (off: the inverse square for all), CandelaWebs (off: luminaires
+   * shine as points), PointLights, SpotLights, DirectionalLights, AreaLights, Environment, Occlusion
+   * (known shadows); or by their numbers in radiometry::Effect. What LocalViewer, TwoSided, Highlights
+   * and UseLightVisibility switch off is off unless the effect is switched on here; EveryEffect
+   * switches on whatever is on Auto. Fails: an error event for a name that no effect of a picture has.
+   */
+  enum EffectSwitchType
+  {
+    EFFECT_AUTO = 0,
+    EFFECT_ON = 1,
+    EFFECT_OFF = 2
+  };
+  void SetEffectSwitch(int effect, int value);
+  void SetEffectSwitch(const char* effect, int value);
+  int GetEffectSwitch(int effect);
+  int GetEffectSwitch(const char* effect);
+  ///@}
+
+  ///@{
+  /**
+   * Effects on Auto are left out, though they are there, where a bound proves that leaving all of them
+   * out changes no colour by more than this, in the unit of the colours that this mapper writes. What
+   * they may change is taken off ShadingTolerance, so that both stay within the greater of the two.
+   * Default 0: only what is not there is left out, which changes no bit of any picture. (A mapper does
+   * not know with what exposure its colours will be shown, so no other default is safe.)
+   */
+  vtkSetClampMacro(EffectTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(EffectTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * What the last frame carried and what it left out: a table with a row for each effect (columns
+   * Effect, Switch, Decision, Bound, Unit, Seconds, Why), and sentences. Bound: the greatest change of
+   * any colour that leaving it out makes; infinite where none can be given. Of several groups of
+   * blocks, whatever one of them carries counts.
+   */
+  vtkTable* GetEffectPlan();
+  const char* Explain();
   ///@}
 
   /**
@@ -342,6 +395,13 @@ protected:
 
   friend class vtkPhongGouraudHelper;
 
+  /// What is wanted of each effect, by its number, properties taken into account.
+  int WishOf(int effect, bool backProperty) const;
+  bool WantsHighlights() const;
+  bool WantsLightVisibility() const;
+  /// The plan of the last frame, all groups of blocks together.
+  radiometry::EffectPlan MergedPlan() const;
+
   int Shading = AUTO;
   int ShadingUsed = PHONG;
   int ReflectionModel = PHYSICAL;
@@ -359,6 +419,8 @@ protected:
   bool Highlights = true;
   bool UseLightVisibility = true;
   bool EveryEffect = false;
+  std::vector<int> EffectSwitches; // by radiometry::Effect
+  double EffectTolerance = 0.0;
   double ShadingTolerance = 0.5 / 255.0;
   double ShadingTimeShare = 0.02;
   double GreatestDifference = -1.0;
@@ -366,6 +428,9 @@ protected:
 
   vtkTimeStamp BufferTime;     // of the last change that needs other buffers
   vtkWeakPointer<vtkRenderWindow> Window; // that was drawn in last
+  std::vector<std::shared_ptr<const radiometry::EffectPlan>> FramePlans; // of the last frame
+  vtkSmartPointer<vtkTable> EffectPlanTable;
+  std::string Explanation;
   double GouraudTriangles = 0.0; // of the last frame
   double CountedTriangles = 0.0;
   std::string ShadingReason;

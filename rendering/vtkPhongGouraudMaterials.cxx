@@ -55,6 +55,10 @@ public:
     }
   }
   explicit operator bool() const { return this->Array != nullptr; }
+  bool IsSpectral(const BandColors& colors) const
+  {
+    return this->Array && colors.IsSpectral(this->Array);
+  }
   void Rgb(vtkIdType cell, double scale, const BandColors& colors, float* rgb) const
   {
     const std::array<double, 3> color = colors.Of(this->Array, this->Whole ? 0 : cell);
@@ -83,6 +87,7 @@ public:
     , Sides{ { Side(block, ""), Side(block, names::BackPrefix) } }
   {
   }
+  bool IsSpectral() const { return this->Sides[0].IsSpectral() || this->Sides[1].IsSpectral(); }
   Material At(vtkIdType cell) const
   {
     Material material{};
@@ -141,6 +146,11 @@ private:
         this->Exitance.Rgb(cell, 1.0 / vtkMath::Pi(), this->Emitted, texels + 8); // a Lambertian emitter
       }
     }
+    bool IsSpectral() const
+    {
+      return this->Diffuse.IsSpectral(this->Reflected) || this->Specular.IsSpectral(this->Reflected) ||
+        this->Exitance.IsSpectral(this->Emitted);
+    }
     SurfaceArray Diffuse;
     SurfaceArray Specular;
     SurfaceArray Exitance;
@@ -177,7 +187,7 @@ bool vtkPhongGouraudHelper::HighlightsOfCells()
 
 bool vtkPhongGouraudHelper::Shines(vtkActor* act)
 {
-  if (this->Mapper()->FieldMode != vtkPhongGouraudMapper::FIELD_ON || !this->Mapper()->Highlights)
+  if (this->Mapper()->FieldMode != vtkPhongGouraudMapper::FIELD_ON)
   {
     return false;
   }
@@ -195,8 +205,8 @@ void vtkPhongGouraudHelper::BuildMaterials(vtkRenderer* ren, vtkActor* act)
   this->SpecularMaterials = false;
   this->EmittingMaterials = false;
   const std::vector<vtkradiometry::DrawnBlock*> blocks = this->Blocks();
+  this->SpectralMaterials = false;
   this->MaterialsOfHighlights = this->Mapper()->FieldMode == vtkPhongGouraudMapper::FIELD_ON &&
-    this->Mapper()->Highlights &&
     std::any_of(blocks.begin(), blocks.end(), [](const vtkradiometry::DrawnBlock* drawn) {
       return HasHighlights(vtkradiometry::DataOf(*drawn));
     });
@@ -214,6 +224,7 @@ void vtkPhongGouraudHelper::BuildMaterials(vtkRenderer* ren, vtkActor* act)
   for (vtkradiometry::DrawnBlock* drawn : blocks)
   {
     const BlockMaterials materials(vtkradiometry::DataOf(*drawn), act);
+    this->SpectralMaterials = this->SpectralMaterials || materials.IsSpectral();
     vtkOpenGLCellToVTKCellMap* map = drawn->CellCellMap;
     ofTriangle.resize(4 * static_cast<std::size_t>(map->GetFinalOffset()), 0.0f);
     const std::size_t begin = static_cast<std::size_t>(map->GetPrimitiveOffsets()[0]);

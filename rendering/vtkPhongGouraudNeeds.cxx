@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What vtkPhongGouraudHelper draws itself, and which effects the shader of a scene needs for it.
+// What vtkPhongGouraudHelper draws itself, and what the shader needs for the effects of its plan.
 #include "vtkPhongGouraudHelper.h"
 
 #include "vtkPhongGouraudMapper.h"
@@ -7,13 +7,15 @@
 #include "vtk_glew.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 
+#include <utility>
+
+using radiometry::Effect;
 using vtkradiometry::ShaderFeatures;
 
 namespace
@@ -32,25 +34,12 @@ void Need(ShaderFeatures& features, bool needed, const char* name)
   }
 }
 
-bool IsBlack(const double* color)
-{
-  return color[0] == 0.0 && color[1] == 0.0 && color[2] == 0.0;
-}
-
 bool NeedsLight(vtkPhongGouraudMapper* mapper)
 {
   const int mode = mapper->GetFieldMode();
   return mode != vtkPhongGouraudMapper::FIELD_ON &&
     mode != vtkPhongGouraudMapper::FIELD_NORMALS &&
     mode != vtkPhongGouraudMapper::FIELD_FALSE_COLOR;
-}
-
-/// Has either side's property this?
-template <typename F>
-bool OfEitherSide(vtkActor* act, const F& property)
-{
-  vtkProperty* back = act->GetBackfaceProperty();
-  return property(act->GetProperty()) || (back && property(back));
 }
 
 } // namespace
@@ -84,6 +73,12 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
   ShaderFeatures needs;
+  // Colours of scalars have an opacity of their own, if only of what is not a number.
+  Need(needs,
+    this->Effects.Simulates(Effect::Translucency) ||
+      (!this->Effects.LeavesOut(Effect::Translucency) &&
+        (this->UsesScalarColors() || mapper->FieldMode == vtkPhongGouraudMapper::FIELD_FALSE_COLOR)),
+    "Translucency");
   if (mapper->FieldMode == vtkPhongGouraudMapper::FIELD_FALSE_COLOR)
   {
     needs.insert("FalseColor");
@@ -93,20 +88,23 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
     return needs;
   }
   vtkProperty* back = act->GetBackfaceProperty();
-  Need(needs, mapper->TwoSided || back, "TwoSided");
+  Need(needs, this->Effects.Simulates(Effect::TwoSided), "TwoSided");
   Need(needs, back != nullptr, "BackProperty");
   vtkNew<vtkMatrix4x4> objectToWorld;
   act->GetModelToWorldMatrix(objectToWorld);
-  Need(needs, Has(needs, "TwoSided") && objectToWorld->Determinant() < 0.0, "Mirrored");
+  Need(needs, (Has(needs, "TwoSided") || back) && objectToWorld->Determinant() < 0.0, "Mirrored");
   Need(needs, this->DrawingEdges(ren, act), "Edges");
 
   const bool lit = NeedsLight(mapper);
-  const bool highlights = this->Shines(act) && Has(this->Lights.Features, "Lights");
-  const bool materials =
-    mapper->FieldMode == vtkPhongGouraudMapper::FIELD_MATERIALS || this->HighlightsOfCells();
+  const bool highlights = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON &&
+    this->Effects.Simulates(Effect::Specular) && this->Lights.Count() > 0;
+  const bool materials = mapper->FieldMode == vtkPhongGouraudMapper::FIELD_MATERIALS ||
+    (highlights && this->HighlightsOfCells());
   Need(needs, lit, "Lit");
   Need(needs, materials && (lit || highlights), "Materials");
-  Need(needs, materials && lit && this->EmittingMaterials, "MaterialEmission");
+  Need(needs,
+    materials && lit && this->EmittingMaterials && this->Effects.Simulates(Effect::Emission),
+    "MaterialEmission");
   Need(needs, mapper->FieldMode == vtkPhongGouraudMapper::FIELD_ON, "ShowField");
   Need(needs, mapper->FieldMode == vtkPhongGouraudMapper::FIELD_REFLECTANCE, "FieldIsReflectance");
   Need(needs, mapper->FieldMode == vtkPhongGouraudMapper::FIELD_NORMALS, "ShowNormals");
@@ -121,7 +119,7 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
   int shading = mapper->Shading;
   if (lit || highlights)
   {
-    this->NeedLights(needs, ren, act);
+    this->NeedLights(needs, act);
     shading = this->ChooseShading(needs, highlights);
     this->NeedShading(needs, shading);
     mapper->ShadingUsed = shading;
@@ -135,33 +133,34 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
   return needs;
 }
 
-void vtkPhongGouraudHelper::NeedLights(ShaderFeatures& needs, vtkRenderer* ren, vtkActor* act)
+void vtkPhongGouraudHelper::NeedLights(ShaderFeatures& needs, vtkActor* act)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
+  const vtkradiometry::PictureEffects& plan = this->Effects;
   const bool lit = Has(needs, "Lit");
-  const bool emission = !IsBlack(mapper->Emission) || !IsBlack(mapper->BackEmission);
-  Need(needs, lit && emission, "Emission");
   Need(needs,
-    lit && OfEitherSide(act, [](vtkProperty* p) { return p->GetAmbient() > 0.0; }), "Ambient");
+    plan.Simulates(Effect::Emission) && (this->MapperEmits() || plan.IsOn(Effect::Emission)),
+    "Emission");
+  Need(needs, plan.Simulates(Effect::GlobalAmbient), "Ambient");
+  // What the lights are that the plan draws; then what was switched on though no light is or has it.
   needs.insert(this->Lights.Features.begin(), this->Lights.Features.end());
   const bool lights = Has(needs, "Lights");
   Need(needs, lit && lights, "Diffuse");
-  if (mapper->EveryEffect && lights)
+  const std::pair<Effect, const char*> wished[] = { { Effect::DirectionalLights, "Directional" },
+    { Effect::PointLights, "Point" }, { Effect::SpotLights, "Spot" },
+    { Effect::CandelaWebs, "Luminaire" }, { Effect::AreaLights, "Area" },
+    { Effect::Environment, "Sky" }, { Effect::SpotShape, "SpotExponent" },
+    { Effect::SpotShape, "SmoothEdge" }, { Effect::Attenuation, "Attenuation" },
+    { Effect::GlobalAmbient, "LightAmbient" }, { Effect::Specular, "LightSpecular" } };
+  for (const auto& [effect, feature] : wished)
   {
-    for (const char* effect : { "Ambient", "Emission", "Directional", "Point", "Spot",
-           "LightAmbient", "LightSpecular", "Attenuation", "SpotExponent", "SmoothEdge",
-           "Specular" })
-    {
-      needs.insert(effect);
-    }
+    Need(needs, lights && plan.IsOn(effect), feature);
+  }
+  if (Has(needs, "Attenuation"))
+  {
     needs.erase("InverseSquare");
   }
-  const auto shines = [](vtkProperty* p) {
-    return p->GetSpecular() > 0.0 && !IsBlack(p->GetSpecularColor());
-  };
-  Need(needs,
-    lights && (Has(needs, "Materials") ? this->SpecularMaterials : OfEitherSide(act, shines)),
-    "Specular");
+  Need(needs, lights && plan.Simulates(Effect::Specular), "Specular");
   if (!lit)
   {
     needs.erase("Area"); // they have no highlights
@@ -178,17 +177,18 @@ void vtkPhongGouraudHelper::NeedLights(ShaderFeatures& needs, vtkRenderer* ren, 
   }
   if (Has(needs, "Specular"))
   {
-    const bool parallel = ren->GetActiveCamera()->GetParallelProjection() != 0;
-    Need(needs, mapper->LocalViewer && !parallel, "LocalViewer");
+    Need(needs, plan.Simulates(Effect::LocalViewer), "LocalViewer");
     const char* models[] = { "BlinnPhong", "Phong", "Physical" };
     needs.insert(models[mapper->ReflectionModel]);
-    Need(needs, act->GetBackfaceProperty() && !this->UsesScalarColors(), "BackMaterial");
+    Need(needs,
+      Has(needs, "TwoSided") && act->GetBackfaceProperty() && !this->UsesScalarColors(),
+      "BackMaterial");
   }
   else
   {
     needs.erase("LightSpecular");
   }
-  if (lights && this->UsesVisibility())
+  if (lights && plan.Simulates(Effect::Occlusion))
   {
     this->NeedVisibility(needs);
   }
@@ -204,7 +204,7 @@ int vtkPhongGouraudHelper::ChooseShading(const ShaderFeatures& needs, bool highl
   // Highlights on a field and shares of light are drawn pixel by pixel; so are normals of cells and
   // exponents that belong to a cell.
   const bool specular = Has(needs, "Specular");
-  if (highlights || (Has(needs, "Lights") && this->UsesVisibility()) ||
+  if (highlights || Has(needs, "Visibility") ||
     !this->HasPointNormals() || (Has(needs, "Materials") && specular))
   {
     return vtkPhongGouraudMapper::PHONG;
@@ -213,7 +213,7 @@ int vtkPhongGouraudHelper::ChooseShading(const ShaderFeatures& needs, bool highl
   {
     return shading;
   }
-  if (vtkradiometry::NeedsExtendedLights(needs))
+  if (vtkradiometry::NeedsExtendedLights(this->Lights.Features))
   {
     return vtkPhongGouraudMapper::PHONG;
   }

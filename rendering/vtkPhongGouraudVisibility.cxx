@@ -83,12 +83,7 @@ int PlaceOf(const LightKey& key, const std::vector<LightKey>& keys)
 
 vtkPhongGouraudHelper::BlockVisibility vtkPhongGouraudHelper::FindVisibility(vtkPolyData* block)
 {
-  vtkPhongGouraudMapper* mapper = this->Mapper();
   BlockVisibility found;
-  if (!mapper->UseLightVisibility)
-  {
-    return found;
-  }
   const std::vector<LightKey> keys = KeysOf(block);
   const auto find = [&](vtkDataSetAttributes* data, const char* suffix, vtkIdType tuples) {
     vtkDataArray* array =
@@ -135,6 +130,12 @@ void vtkPhongGouraudHelper::PrepareVisibility()
     this->VisibilityOfBack = this->VisibilityOfBack || found.Back;
     ofPoints = ofPoints || (found.Front && !found.OfCells);
   }
+  this->NoteVisibilityLoss();
+  if (!this->Mapper()->WantsLightVisibility())
+  {
+    this->VisibilityOfCells = false; // known, for what leaving it out changes, but not uploaded
+    return;
+  }
   std::size_t room = this->VisibilityKeys.size();
   if (ofPoints)
   {
@@ -162,6 +163,28 @@ void vtkPhongGouraudHelper::PrepareVisibility()
       << "LightVisibility: there is room for the shadows of " << room << " of "
       << this->VisibilityKeys.size() << " lights; the others are drawn without");
     this->VisibilityKeys.resize(room);
+  }
+}
+
+void vtkPhongGouraudHelper::NoteVisibilityLoss()
+{
+  this->VisibilityLoss.assign(this->VisibilityKeys.size(), 0.0);
+  for (const DrawnBlock* drawn : this->Blocks())
+  {
+    const BlockVisibility found = this->FindVisibility(DataOf(*drawn));
+    for (vtkDataArray* array : { found.Front, found.Back })
+    {
+      for (std::size_t column = 0; array && column < found.Components.size(); ++column)
+      {
+        double range[2] = { 1.0, 1.0 };
+        if (found.Components[column] >= 0)
+        {
+          array->GetRange(range, found.Components[column]);
+        }
+        this->VisibilityLoss[column] = std::max(
+          { this->VisibilityLoss[column], std::abs(1.0 - range[0]), std::abs(1.0 - range[1]) });
+      }
+    }
   }
 }
 
@@ -241,15 +264,12 @@ void vtkPhongGouraudHelper::BuildVisibility(vtkRenderer* ren, vtkActor* act)
   this->VisibilityBuffer.Upload(ren, std::move(texels));
 }
 
-void vtkPhongGouraudHelper::AssignVisibility()
+void vtkPhongGouraudHelper::AssignVisibility(vtkradiometry::CollectedLights& collected)
 {
-  this->LightsKnown = false;
-  for (std::size_t k = 0; k < this->Lights.Keys.size(); ++k)
+  collected.Columns.assign(collected.Lights.size(), -1);
+  for (std::size_t k = 0; k < collected.Keys.size() && !this->VisibilityKeys.empty(); ++k)
   {
-    const int column = PlaceOf(this->Lights.Keys[k], this->VisibilityKeys);
-    this->Lights.Texels[4 * vtkradiometry::PackedLights::TexelsPerLight * k + 3] =
-      static_cast<float>(column);
-    this->LightsKnown = this->LightsKnown || column >= 0;
+    collected.Columns[k] = PlaceOf(collected.Keys[k], this->VisibilityKeys);
   }
 }
 

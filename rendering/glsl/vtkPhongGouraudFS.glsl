@@ -85,7 +85,11 @@
 //@if BlockColors
   falseColor = OverridesColor ? vec4(diffuseColorUniform, 1.0) : falseColor;
 //@end
+//@if Translucency
   gl_FragData[0] = vec4(falseColor.rgb, falseColor.a * opacityUniform);
+//@else
+  gl_FragData[0] = vec4(falseColor.rgb, 1.0);
+//@end
 //@end
 //@if ShowNormals
   gl_FragData[0] = vec4(viewToWorld * N, 1.0);
@@ -201,10 +205,18 @@
 //@end
 //@end
 //@if Lit
+//@if Translucency
   gl_FragData[0] = vec4(color, opacity);
+//@else
+  gl_FragData[0] = vec4(color, 1.0);
+//@end
 //@end
 //@if ShowField
+//@if Translucency
   gl_FragData[0] = vec4(color, opacity);
+//@else
+  gl_FragData[0] = vec4(color, 1.0);
+//@end
 //@end
 //@if Edges
   gl_FragData[0].rgb = mix(gl_FragData[0].rgb, edgeColor, emix);
