@@ -6,6 +6,7 @@
 
 #include "radiometry/effects/EffectPlan.h"
 #include "radiometry/shading/EffectBounds.h"
+#include "radiometry/shading/ShadingBound.h"
 
 #include <array>
 #include <cstdint>

@@ -73,12 +73,8 @@ ShaderFeatures vtkPhongGouraudHelper::Needs(vtkRenderer* ren, vtkActor* act)
 {
   vtkPhongGouraudMapper* mapper = this->Mapper();
   ShaderFeatures needs;
-  // Colours of scalars have an opacity of their own, if only of what is not a number.
-  Need(needs,
-    this->Effects.Simulates(Effect::Translucency) ||
-      (!this->Effects.LeavesOut(Effect::Translucency) &&
-        (this->UsesScalarColors() || mapper->FieldMode == vtkPhongGouraudMapper::FIELD_FALSE_COLOR)),
-    "Translucency");
+  // Opacity is in VTK's own text, whatever the scene: what needs code is that it is left out.
+  Need(needs, this->Effects.LeavesOut(Effect::Translucency), "Opaque");
   if (mapper->FieldMode == vtkPhongGouraudMapper::FIELD_FALSE_COLOR)
   {
     needs.insert("FalseColor");

@@ -85,10 +85,10 @@
 //@if BlockColors
   falseColor = OverridesColor ? vec4(diffuseColorUniform, 1.0) : falseColor;
 //@end
-//@if Translucency
-  gl_FragData[0] = vec4(falseColor.rgb, falseColor.a * opacityUniform);
-//@else
+//@if Opaque
   gl_FragData[0] = vec4(falseColor.rgb, 1.0);
+//@else
+  gl_FragData[0] = vec4(falseColor.rgb, falseColor.a * opacityUniform);
 //@end
 //@end
 //@if ShowNormals
@@ -205,17 +205,17 @@
 //@end
 //@end
 //@if Lit
-//@if Translucency
-  gl_FragData[0] = vec4(color, opacity);
-//@else
+//@if Opaque
   gl_FragData[0] = vec4(color, 1.0);
+//@else
+  gl_FragData[0] = vec4(color, opacity);
 //@end
 //@end
 //@if ShowField
-//@if Translucency
-  gl_FragData[0] = vec4(color, opacity);
-//@else
+//@if Opaque
   gl_FragData[0] = vec4(color, 1.0);
+//@else
+  gl_FragData[0] = vec4(color, opacity);
 //@end
 //@end
 //@if Edges

@@ -305,15 +305,18 @@ def test_false_colours():
     expect(w, "FalseColor ColorsOfPoints")
 
 
-def visible(of_points, back=False, count=1):
+def visible(of_points, back=False, count=1, occluded=True):
     """A square that knows how much of each light arrives, as the simulating filters write it."""
     from vtkradiometry import vtkIrradianceFilter
 
     surface = square()
+    x = 0.0 if occluded else 50.0
+    roof = polydata([(x, -1, 2), (x + 1, -1, 2), (x + 1, 1, 2), (x, 1, 2)], [(0, 1, 2, 3)])
     data = lights(*[dict(SUN, Direction=(0.1 * i, 0, -1)) for i in range(count)])
     f = vtkIrradianceFilter()
     f.SetInputDataObject(0, surface)
     f.SetInputDataObject(1, data)
+    f.SetInputDataObject(2, roof)
     f.SetLightVisibility(True)
     f.SetSampleLocation(1 if of_points else 0)
     f.SetTwoSided(back)
@@ -341,6 +344,16 @@ def test_known_shadows():
         assert ("VisibilityOfBack" in names) == back, names
         expect(w, " ".join(names))
     w.mapper.SetUseLightVisibility(False)
+    expect(w, PHONG, "Directional")
+    expect(visible(False, occluded=False), PHONG, "Directional")  # all of the light arrives
+
+
+def test_translucency():
+    expect(window(SUN, Opacity=0.5), PHONG, "Directional")  # VTK's own text
+    w = window(SUN, Opacity=0.5)
+    w.mapper.SetEffectSwitch("Translucency", 2)
+    expect(w, PHONG, "Directional Opaque")
+    w.actor.GetProperty().SetOpacity(1.0)
     expect(w, PHONG, "Directional")
 
 
