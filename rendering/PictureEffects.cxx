@@ -135,7 +135,7 @@ void PictureEffects::Decide(const FrameFacts& facts)
   }
   // Bands become colours where arrays are read: there is nothing to leave out of a frame.
   wishes[static_cast<std::size_t>(Effect::SpectralBands)] = EffectSwitch::Auto;
-  auto plan = std::make_shared<EffectPlan>(wishes, "colour");
+  auto plan = std::make_shared<EffectPlan>(wishes, "linear colour");
   const bool lit = facts.Shows == FrameFacts::LitSurface;
   const bool receives = facts.AnyLight && facts.Shows != FrameFacts::NothingLit;
   const bool shining = facts.Lights && receives;

@@ -158,7 +158,7 @@ EffectPlan vtkPhongGouraudMapper::MergedPlan() const
 {
   if (this->FramePlans.empty())
   {
-    return EffectPlan({}, "colour");
+    return EffectPlan({}, "linear colour");
   }
   EffectPlan plan = *this->FramePlans.front();
   for (const auto& other : this->FramePlans)

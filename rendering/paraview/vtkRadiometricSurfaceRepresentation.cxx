@@ -120,6 +120,16 @@ void vtkRadiometricSurfaceRepresentation::SetUseLightVisibility(bool on)
   vtkForwardToMappers(SetUseLightVisibility(on));
 }
 
+void vtkRadiometricSurfaceRepresentation::SetEffectTolerance(double tolerance)
+{
+  vtkForwardToMappers(SetEffectTolerance(tolerance));
+}
+
+void vtkRadiometricSurfaceRepresentation::SwitchEffect(const char* effect, int value)
+{
+  vtkForwardToMappers(SetEffectSwitch(effect, value));
+}
+
 void vtkRadiometricSurfaceRepresentation::SetFieldArray(
   int vtkNotUsed(index), int vtkNotUsed(port), int vtkNotUsed(connection), int association,
   const char* name)
@@ -246,6 +256,12 @@ const char* vtkRadiometricSurfaceRepresentation::GetShadingReason()
 {
   auto* mapper = vtkPhongGouraudMapper::SafeDownCast(this->Mapper);
   return mapper ? mapper->GetShadingReason() : "";
+}
+
+const char* vtkRadiometricSurfaceRepresentation::GetEffectsExplained()
+{
+  auto* mapper = vtkPhongGouraudMapper::SafeDownCast(this->Mapper);
+  return mapper ? mapper->Explain() : "";
 }
 
 void vtkRadiometricSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)

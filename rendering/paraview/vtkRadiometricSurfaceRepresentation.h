@@ -92,6 +92,22 @@ public:
   void SetMetersPerUnit(double meters);
   void SetHighlights(bool on);
   void SetUseLightVisibility(bool on);
+  void SetEffectTolerance(double tolerance);
+  ///@}
+
+  ///@{
+  /**
+   * The mappers' SetEffectSwitch of one effect: as the scene calls for it (0, default), on (1), off (2).
+   */
+  void SetSpecularEffect(int value) { this->SwitchEffect("Specular", value); }
+  void SetAmbientEffect(int value) { this->SwitchEffect("GlobalAmbient", value); }
+  void SetTwoSidedEffect(int value) { this->SwitchEffect("TwoSided", value); }
+  void SetLocalViewerEffect(int value) { this->SwitchEffect("LocalViewer", value); }
+  void SetTranslucencyEffect(int value) { this->SwitchEffect("Translucency", value); }
+  void SetEmissionEffect(int value) { this->SwitchEffect("Emission", value); }
+  void SetSpotShapeEffect(int value) { this->SwitchEffect("SpotShape", value); }
+  void SetAttenuationEffect(int value) { this->SwitchEffect("Attenuation", value); }
+  void SetOcclusionEffect(int value) { this->SwitchEffect("Occlusion", value); }
   ///@}
 
   ///@{
@@ -113,6 +129,8 @@ public:
   const char* GetShadingUsed();
   double GetGouraudShare();
   const char* GetShadingReason();
+  /// Effect by effect, why the last frame carried it or not, and what leaving it out changes.
+  const char* GetEffectsExplained();
   const char* GetFieldUsed() { return this->FieldUsed.c_str(); }
   ///@}
 
@@ -123,6 +141,7 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
+  void SwitchEffect(const char* effect, int value);
   /// Sets a mapper's field mode, array and scale for the data that it draws.
   void ChooseField(vtkMapper* mapper, vtkDataObject* data);
 
