@@ -16,7 +16,6 @@
 using radiometry::Effect;
 using radiometry::EffectDecision;
 using radiometry::EffectPlan;
-using radiometry::EffectSwitch;
 
 namespace
 {
@@ -196,16 +195,14 @@ vtkTable* vtkPhongGouraudMapper::GetEffectPlan()
   auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
   auto* why = AddColumn<vtkStringArray>(table, "Why");
   const EffectPlan plan = this->MergedPlan();
-  const char* const wishes[] = { "Auto", "On", "Off" };
   for (int k = 0; k < radiometry::EffectCount; ++k)
   {
     const EffectDecision& d = plan[static_cast<Effect>(k)];
     if (d.Known)
     {
       effect->InsertNextValue(radiometry::EffectName(static_cast<Effect>(k)));
-      wish->InsertNextValue(wishes[static_cast<int>(d.Wish)]);
-      decision->InsertNextValue(
-        d.Simulated ? "simulated" : (d.Present ? "left out" : "not needed"));
+      wish->InsertNextValue(radiometry::SwitchName(d.Wish));
+      decision->InsertNextValue(radiometry::DecisionName(d));
       bound->InsertNextValue(d.Bound);
       unit->InsertNextValue(plan.BoundUnit());
       seconds->InsertNextValue(d.Seconds);

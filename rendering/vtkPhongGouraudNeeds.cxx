@@ -152,6 +152,10 @@ void vtkPhongGouraudHelper::NeedLights(ShaderFeatures& needs, vtkActor* act)
   {
     Need(needs, lights && plan.IsOn(effect), feature);
   }
+  if (plan.LeavesOut(Effect::SpotShape))
+  {
+    needs.erase("Spot"); // they are points
+  }
   if (Has(needs, "Attenuation"))
   {
     needs.erase("InverseSquare");

@@ -189,7 +189,7 @@ float fallOff(int light, float r2, float inverse)
 {
 //@if Attenuation
   vec3 abc = texelFetch(radiometryLights, light + 5).xyz;
-  float r = r2 * inverse;
+  float r = r2 < 1e38 ? r2 * inverse : 1e19; // beyond that floats end
   return 1.0 / (abc.x + r * (abc.y + r * abc.z));
 //@else
 //@if InverseSquare

@@ -198,4 +198,33 @@ def test_state():
     check(np.array_equal(picture(view), before))
 
 
+def test_effects_are_switched_and_explained():
+    view = new_view()
+    surface = show_surface(new_plane(), view)
+    surface.Specular = 0.5
+    surface.SpecularPower = 5.0
+    lamp = pv.DirectionalLight(Direction=[0, 0, -1], Intensity=0.3 * math.pi)
+    show_lights(lamp, view)
+    shining = picture(view)
+    surface.SMProxy.UpdatePropertyInformation()
+    check("Specular is simulated" in surface.EffectsExplained, surface.EffectsExplained)
+    surface.SpecularEffect = "Off"
+    matte = picture(view)
+    expect(matte, 0.0, 0.0, 0.3)
+    check((shining - matte).max() > 50, "the highlight should be gone")
+    surface.SMProxy.UpdatePropertyInformation()
+    check("Specular is left out: switched off" in surface.EffectsExplained, surface.EffectsExplained)
+    surface.SpecularEffect = "As the scene calls for"
+    check(np.array_equal(picture(view), shining))
+    surface.EffectTolerance = 10.0
+    check(picture(view).max() == 0, "all of it is less than 10")
+    surface.SMProxy.UpdatePropertyInformation()
+    check("DirectionalLights is dropped" in surface.EffectsExplained, surface.EffectsExplained)
+    surface.EffectTolerance = 0.0
+    for name in ("Ambient", "TwoSided", "LocalViewer", "Translucency", "Emission", "SpotShape",
+                 "Attenuation", "Occlusion"):
+        setattr(surface, name + "Effect", "Off")
+        check(np.array_equal(picture(view), shining), name)  # nothing of the kind is seen here
+
+
 run(globals())

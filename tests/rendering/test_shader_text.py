@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The generated shaders hold what the lights and the material need, and nothing else."""
+import os
+import re
+
 from drawing import Window, add, lights, run, square
+
+GLSL = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))),
+                    "rendering", "glsl")
 
 # Words of the text that belong to an effect. Whatever a scene lacks must not be in its shaders.
 EFFECTS = {
@@ -147,6 +153,88 @@ def test_fields():
     expect(w, "field")  # no light code
     w.mapper.SetFieldModeToNormals()
     expect(w, "normals as colours")
+
+
+def without(text, features):
+    """A file of rendering/glsl as it would be, had the features never been written."""
+    kept, stack = [], []
+    for line in text.splitlines():
+        word = line.strip()
+        if word.startswith("//@if "):
+            name = word.split()[1]
+            gone = name.lstrip("!") in features
+            # Of what never was, the lines of "if" are not there; those of "if not" stand alone.
+            stack.append("hidden" if gone and not name.startswith("!") else
+                         ("bare" if gone else "written"))
+            if gone:
+                continue
+        elif word == "//@else" and stack[-1] != "written":
+            stack[-1] = "bare" if stack[-1] == "hidden" else "hidden"
+            continue
+        elif word == "//@end" and stack.pop() != "written":
+            continue
+        if "hidden" not in stack:
+            kept.append(line)
+    return "\n".join(kept)
+
+
+def expanded(text, features):
+    """What a shader gets of such a file."""
+    kept, stack = [], []
+    for line in text.splitlines():
+        word = line.strip()
+        if word.startswith("//@if "):
+            name = word.split()[1]
+            stack.append((name.lstrip("!") in features) != name.startswith("!"))
+        elif word == "//@else":
+            stack[-1] = not stack[-1]
+        elif word == "//@end":
+            stack.pop()
+        elif all(stack) and word and not word.startswith("//"):
+            kept.append(line)
+    return "\n".join(kept)
+
+
+def test_a_plain_scene_pays_nothing():
+    """Byte by byte, the shaders of a plain scene are those of files from which every effect that it does
+    not have was cut out; a twin with every effect has other text."""
+    for light_list, shading in (([SUN], "Phong"), ([POINT], "Phong"), ([POINT], "Gouraud")):
+        w = plain(light_list, shading)
+        text(w)
+        vertex, fragment = w.mapper.GetVertexShaderText(), w.mapper.GetFragmentShaderText()
+        needs = set(w.mapper.GetShaderFeatures().split())
+        lit_at = "vertex" if shading == "Gouraud" else "fragment"
+        known, cut = set(), 0
+        for name in ("VSDec", "VS", "FSDec", "FS", "Lights"):
+            path = "vtkRadiometryLights" if name == "Lights" else "vtkPhongGouraud" + name
+            with open(os.path.join(GLSL, path + ".glsl"), encoding="utf-8") as file:
+                whole = file.read()
+            effects = set(re.findall(r"//@if !?(\w+)", whole)) - needs
+            known |= effects
+            lean = without(whole, effects)
+            cut += len(whole) - len(lean)
+            assert not effects & set(re.findall(r"//@if !?(\w+)", lean))
+            holder = {"V": vertex, "F": fragment}.get(name[0]) or (
+                vertex if lit_at == "vertex" else fragment)
+            for where in ([vertex, fragment] if name == "Lights" else [holder]):
+                features = set(needs)
+                if name in ("Lights", "VS", "FS") and (where is vertex) != (lit_at == "vertex"):
+                    if name != "FS":  # sums of lights stand at one place
+                        features -= {"Lights", "Finite", "NeedsPower", "Spot", "NeedsNormal"}
+                piece = expanded(lean, features)
+                assert piece == expanded(whole, features)
+                if name != "FS" or shading == "Phong":
+                    assert piece.strip() in where, (name, piece, where)
+        assert len(known) > 30 and cut > 15000, (len(known), cut)
+        w.mapper.SetEveryEffect(True)
+        w.draw()
+        assert len(w.mapper.GetVertexShaderText() + w.mapper.GetFragmentShaderText()) > 1000 + len(
+            vertex + fragment)
+        w.mapper.SetEveryEffect(False)
+        w.mapper.SetEffectTolerance(1e-9)  # bounds are looked at, and the text is the same
+        w.draw()
+        assert (w.mapper.GetVertexShaderText(), w.mapper.GetFragmentShaderText()) == (
+            vertex, fragment)
 
 
 def test_nothing_is_rebuilt_without_need():
