@@ -209,21 +209,32 @@ PackedLights PackLights(const CollectedLights& lights, const LocalCoordinates& l
   // Radiance of a Lambertian surface is E/pi: the division is done once, here.
   const double unit = scale *
     (reflection == radiometry::ReflectionModel::Physical ? 1.0 / vtkMath::Pi() : 1.0);
-  const auto taken = [scale](const DisplayLight& light) { return GivesLight(light, scale); };
-  Appendix after(PackedLights::TexelsPerLight *
-    static_cast<int>(std::count_if(lights.Lights.begin(), lights.Lights.end(), taken)));
+  std::vector<LightKind> kinds; // LightKinds: not taken
+  std::array<bool, LightKinds> any{};
+  int taken = 0;
+  for (const DisplayLight& light : lights.Lights)
+  {
+    const bool gives = GivesLight(light, scale);
+    kinds.push_back(gives ? KindOf(light) : static_cast<LightKind>(LightKinds));
+    if (gives)
+    {
+      any[static_cast<std::size_t>(kinds.back())] = true;
+      ++taken;
+    }
+  }
+  Appendix after(PackedLights::TexelsPerLight * taken);
   for (int number = 0; number < LightKinds; ++number)
   {
     const auto kind = static_cast<LightKind>(number);
     const int texels = static_cast<int>(packed.Texels.size() / 4);
     packed.Ranges[number][0] = texels / PackedLights::TexelsPerLight;
-    for (std::size_t i = 0; i < lights.Lights.size(); ++i)
+    for (std::size_t i = 0; any[static_cast<std::size_t>(number)] && i < kinds.size(); ++i)
     {
-      const DisplayLight& light = lights.Lights[i];
-      if (KindOf(light) != kind || !taken(light))
+      if (kinds[i] != kind)
       {
         continue;
       }
+      const DisplayLight& light = lights.Lights[i];
       const int column = lights.Columns.empty() ? -1 : lights.Columns[i];
       const bool directional = kind == LightKind::Directional;
       const bool spot = kind == LightKind::Spot;

@@ -110,6 +110,7 @@ private:
   void NoteMaterials(vtkActor* act, vtkradiometry::BoundedPicture& picture);
   const std::vector<radiometry::SurfaceBox>& BoxesOfSurface();
   bool MapperEmits();
+  bool IsTranslucent(vtkActor* act);
   void PlaceOrigin(vtkRenderer* ren, vtkMatrix4x4* objectToWorld);
   /// Shading Auto: the triangles to decide about, what they are lit by, and once a frame the choice.
   void BuildChoice(vtkActor* act);
@@ -195,6 +196,8 @@ private:
   vtkradiometry::PictureEffects Effects;
   std::vector<radiometry::SurfaceBox> Boxes; // of the triangles, some each, in object coordinates
   bool BoxesMade = false;
+  bool Translucent = false; // at this time
+  vtkMTimeType TranslucentTime = 0;
 
   // Shading Auto
   vtkradiometry::ShadingChoice Choice;

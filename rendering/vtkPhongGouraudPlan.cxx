@@ -8,6 +8,7 @@
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
@@ -122,6 +123,22 @@ bool vtkPhongGouraudHelper::MapperEmits()
   return !IsBlack(this->Mapper()->Emission) || !IsBlack(this->Mapper()->BackEmission);
 }
 
+bool vtkPhongGouraudHelper::IsTranslucent(vtkActor* act)
+{
+  // VTK looks at every block: that is worth keeping.
+  vtkCompositeDataDisplayAttributes* attributes =
+    this->Mapper()->GetCompositeDataDisplayAttributes();
+  const vtkMTimeType time = std::max({ act->GetMTime(), this->Mapper()->GetMTime(),
+    this->VBOBuildTime.GetMTime(), attributes ? attributes->GetMTime() : vtkMTimeType() });
+  if (time > this->TranslucentTime)
+  {
+    this->TranslucentTime = time;
+    this->Translucent = act->HasTranslucentPolygonalGeometry() ||
+      OfEitherSide(act, [](vtkProperty* p) { return p->GetOpacity() < 1.0; });
+  }
+  return this->Translucent;
+}
+
 FrameFacts vtkPhongGouraudHelper::FactsOf(
   vtkRenderer* ren, vtkActor* act, const CollectedLights& collected)
 {
@@ -158,8 +175,7 @@ FrameFacts vtkPhongGouraudHelper::FactsOf(
   facts.SidesDiffer = (lit && (!glowsAlike || ofCells)) || normals ||
     ((field || reflectance) && this->FieldOfBack);
   facts.Parallel = ren->GetActiveCamera()->GetParallelProjection() != 0;
-  facts.Translucent = act->HasTranslucentPolygonalGeometry() ||
-    OfEitherSide(act, [](vtkProperty* p) { return p->GetOpacity() < 1.0; });
+  facts.Translucent = this->IsTranslucent(act);
   for (const int column : collected.Columns)
   {
     facts.SharesKnown = facts.SharesKnown || column >= 0;
