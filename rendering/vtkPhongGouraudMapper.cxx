@@ -78,9 +78,11 @@ void vtkPhongGouraudMapper::ShallowCopy(vtkAbstractMapper* other)
     this->SetHighlights(own->Highlights);
     this->SetUseLightVisibility(own->UseLightVisibility);
     this->SetEveryEffect(own->EveryEffect);
-    for (int effect = 0; effect < static_cast<int>(own->EffectSwitches.size()); ++effect)
+    if (this->EffectSwitches != own->EffectSwitches)
     {
-      this->SetEffectSwitch(effect, own->EffectSwitches[static_cast<std::size_t>(effect)]);
+      this->EffectSwitches = own->EffectSwitches;
+      this->BufferTime.Modified();
+      this->Modified();
     }
     this->SetEffectTolerance(own->EffectTolerance);
     this->SetShadingTolerance(own->ShadingTolerance);

@@ -307,7 +307,9 @@ def test_unknown_effects_are_errors():
     assert w.mapper.GetEffectSwitch("Specular") == OFF
     other = Window(20).mapper
     w.mapper.SetEffectTolerance(0.25)
+    more = Errors(other)
     other.ShallowCopy(w.mapper)
+    assert not more.texts
     assert other.GetEffectSwitch("Specular") == OFF and other.GetEffectTolerance() == 0.25
 
 
