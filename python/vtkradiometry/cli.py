@@ -62,6 +62,10 @@ def _run(options, progress):
     from .compute import run
     from .vtkRadiometryFilters import vtkIrradianceFilter
 
+    if options.study is not None:
+        from . import study as studies
+
+        reference = studies.read_reference(options.study_reference)
     path = scenes.find(options.scene)
     scene = scenes.read(path, options, progress)
     last = vtkIrradianceFilter()
@@ -73,9 +77,7 @@ def _run(options, progress):
         results.append(run(last, "Radiosity", scene, options, progress))
     study = None
     if options.study is not None:
-        from .study import run as run_study
-
-        study = run_study(last, results[-1].name, options, progress)
+        study = studies.run(last, results[-1].name, reference, options, progress)
     display.ensure()
     with OutputFolder(options.output) as output:
         progress.on_second_signal = output._clean

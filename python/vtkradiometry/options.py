@@ -176,6 +176,9 @@ def make_parser(program="./run"):
                           "tolerances (0.1,0.02,0.01) or for these times (1s,5s,20s), as a table and a "
                           "plot (default: 0.1,0.05,0.02,0.01,0.005). The time budget ends each run at "
                           "tolerances, a --tolerance each run for a time")
+    accuracy.add_argument("--study-reference", metavar="FILE",
+                          help="a scene.vtp of an earlier run of the same scene and mesh, taken as true "
+                          "within its errors (default: the run of the study with the least error)")
     accuracy.add_argument("--study-float", action="store_true",
                           help="also run the finest one with input in single precision")
 

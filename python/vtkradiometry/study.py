@@ -2,9 +2,12 @@
 """./run --study: the last computation at a list of tolerances or time budgets (vtkAccuracyStudy), as
 text, study.csv and study.png."""
 import csv
+import os
 import textwrap
 
 import numpy as np
+
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from .faults import InputFault, Listener
 from .plots import rows_of
@@ -131,12 +134,30 @@ def _rows(data):
     return [dict(zip(names, row)) for row in rows]
 
 
-def run(algorithm, name, options, progress):
+def read_reference(path):
+    """The surface of an earlier run; None for None."""
+    if path is None:
+        return None
+    if not os.path.isfile(path):
+        raise InputFault(f"{path}: no such file")
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(path)
+    with Listener() as listener:
+        listener.observe(reader)
+        listener.observe(reader.GetExecutive())
+        reader.Update()
+        listener.check(path)
+    return reader.GetOutput()
+
+
+def run(algorithm, name, reference, options, progress):
     """Studies a simulating filter that has its inputs and settings. It is not executed."""
     kind, levels = options.study
     study = vtkAccuracyStudy()
     study.SetFilter(algorithm)
     study.SetFloatComparison(options.study_float)
+    if reference is not None:
+        study.SetReferenceData(reference)
     if kind == "budgets":
         algorithm.SetRelativeTolerance(options.study_tolerance)
         study.SetMode(TIME_BUDGETS)
