@@ -26,7 +26,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 import vtkradiometry as vr
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 WIDTH, HEIGHT = 3840, 2160
 PACKINGS = {"none": 0, "zip": 3, "piz": 4, "dwaa": 8}

@@ -51,7 +51,7 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkradiometry.vtkRadiometryRendering import vtkLinearFloatPass, vtkPhongGouraudMapper
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SECONDS = 4.0  # a case

@@ -32,7 +32,7 @@ from direct.clock import clock  # noqa: E402
 from radiosity import reference  # noqa: E402
 from radiosity.cornell import Box  # noqa: E402
 from radiosity.ours import METHODS, Ours  # noqa: E402
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 LEVELS = (0.1, 0.03, 0.01, 0.003)
 

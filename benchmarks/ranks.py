@@ -167,7 +167,7 @@ def main(options):
                 print(json.dumps(row), flush=True)
                 results.append(row)
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    from radiosity.record import provenance, write
+    from provenance import provenance, write
     write(options.out or "ranks", {
         "question": "What do several ranks on one machine bring and cost?", **provenance(),
         "processors": os.cpu_count(), "threads_per_rank": options.threads,

@@ -25,7 +25,7 @@ import vtkradiometry as vr
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from radiosity.furnished import Furnished, named  # noqa: E402
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 
 def arguments():

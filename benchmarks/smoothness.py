@@ -34,7 +34,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "rendering"))
 sys.path.insert(0, os.path.join(ROOT, "benchmarks"))
 from drawing import Window, lights, polydata  # noqa: E402
-from radiosity.record import provenance  # noqa: E402
+from provenance import provenance  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkPolyData  # noqa: E402
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkDelaunay3D  # noqa: E402
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter  # noqa: E402

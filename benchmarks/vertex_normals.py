@@ -27,7 +27,7 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 import vtkradiometry as vr
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 AXES = np.array([3.0, 2.0, 1.0])
 

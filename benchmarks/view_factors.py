@@ -33,7 +33,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 import vtkradiometry as vr
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 from viewfactors import scenes  # noqa: E402
 
 PUBLISHED = 1.4e5  # pairs/s

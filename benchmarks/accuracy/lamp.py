@@ -21,3 +21,8 @@ class Lamp:
         if self.kind == PANEL:
             return self.corners
         return (np.zeros(3) if self.position is None else self.position)[None]
+
+
+def three(values):
+    """One value or three as three, for programs that know RGB alone."""
+    return np.broadcast_to(np.asarray(values, float), 3)

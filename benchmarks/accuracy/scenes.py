@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from accuracy.lamp import PANEL, POINT, SKY, SUN, Lamp
-from accuracy.shapes import bowl, box, divided, joined, plane
+from accuracy.shapes import bowl, box, divided, plane
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 HALF = 3.0         # m, half of the side of the floors
@@ -64,10 +64,11 @@ class Scene:
         """Values that are computed, in each band."""
         return len(self.corners) if self.sensors is None else len(self.sensors)
 
-    def filter(self, method=0):
-        """The filter of the project, with the scene as its input."""
+    def filter(self, method=0, indirect=None):
+        """The filter of the project, with the scene as its input; `indirect`: which of the two, if
+        not that of the scene."""
         from accuracy.vtkdata import scene_filter
-        return scene_filter(self, method)
+        return scene_filter(self, method, self.indirect if indirect is None else indirect)
 
 
 def lamp_over_floor():
@@ -84,8 +85,8 @@ def box_over_floor():
 
 
 def floor(key, name, lamp, blockers, cells=64):
-    return Scene(key, name, corners=plane(HALF, cells), lamps=[lamp], blockers=blockers,
-                 open=not blockers)
+    return Scene(key, name, corners=plane(HALF, cells), reflectance=np.full((cells**2, 1), 0.5),
+                 lamps=[lamp], blockers=blockers, open=not blockers)
 
 
 def from_file(key, name, path, edge=None, kinds=(POINT, SUN)):
@@ -214,8 +215,3 @@ def scene(key):
 
 def scenes(keys=None):
     return [scene(key) for key in (keys or MAKERS)]
-
-
-def blocking_mesh(one):
-    """Points and triangles of what hides light and is not computed."""
-    return joined(one.blockers)

@@ -66,13 +66,13 @@ def lights(scene):
     return out
 
 
-def scene_filter(scene, method=0):
-    run = vr.vtkRadiosityFilter() if scene.indirect else vr.vtkIrradianceFilter()
+def scene_filter(scene, method, indirect):
+    run = vr.vtkRadiosityFilter() if indirect else vr.vtkIrradianceFilter()
     run.SetInputData(surface(scene))
     for data in lights(scene):
         run.AddLightsData(data)
     if scene.blockers:
         run.SetInputData(2, polydata(*joined(scene.blockers)))
-    if scene.indirect:
+    if indirect:
         run.SetMethod(method)
     return run

@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def processor():
@@ -19,9 +19,22 @@ def provenance():
             "load": os.getloadavg()[0]}
 
 
-def write(name, out):
+def path_of(name):
     """benchmarks/results/NAME.json, or NAME itself where it is a path."""
-    path = name if os.sep in name else os.path.join(ROOT, "benchmarks", "results", name + ".json")
+    return name if os.sep in name else os.path.join(ROOT, "benchmarks", "results", name + ".json")
+
+
+def result(name):
+    """What stands there; None where nothing does."""
+    try:
+        with open(path_of(name), encoding="utf-8") as file:
+            return json.load(file)
+    except FileNotFoundError:
+        return None
+
+
+def write(name, out):
+    path = path_of(name)
     with open(path + ".part", "w", encoding="utf-8") as file:
         json.dump(out, file, indent=1)
         file.write("\n")
