@@ -5,7 +5,7 @@
 Four furnished rooms (benchmarks/FurnishedScene.h) with panels and point lights, three bands, through
 vtkRadiosityFilter at 3 %, in a process of its own that two cores are given to (NumberOfThreads 2), with a
 TimeBudget below three minutes: seconds of Update(), its peak of memory, the share of cells whose stated error meets the tolerance. Then the true
-error: 200 cells drawn at random are computed by path tracing in Mitsuba 3 (benchmarks/radiosity/
+error: 200 cells drawn at random are computed by path tracing in Mitsuba 3 (benchmarks/accuracy/
 mitsuba3.py, which shares nothing with the filter but the scene) until their standard error is below 1 %.
 
     ./run --python benchmarks/million_cells.py [--cells 1e6] [--tolerance 0.03] [--site DIR] ...
@@ -86,8 +86,9 @@ def reference(options, scene, chosen):
     if not importlib.util.find_spec("mitsuba"):
         print("no mitsuba: true error left out", file=sys.stderr)
         return None
-    from radiosity.mitsuba3 import Mitsuba
-    mitsuba = Mitsuba(len(os.sched_getaffinity(0)), time.monotonic, False)
+    from accuracy.mitsuba3 import Mitsuba
+    mitsuba = Mitsuba("paths").set_threads(len(os.sched_getaffinity(0)))
+    scene = scene.plain()
     mitsuba.build(scene)
     batches = []
     begin = time.monotonic()

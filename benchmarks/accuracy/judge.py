@@ -4,6 +4,7 @@ import numpy as np
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
 LIT = 0.01     # of a band's greatest value: what gets less is not judged relative to itself
+SUDDEN = 100.0  # times less error than the run before
 EXACT = 1e-9   # errors below are rounding and have no slope
 
 
@@ -51,13 +52,16 @@ def front(curve, key):
 
 
 def seconds_at(curve, level, key="seconds"):
-    """The least time for an error, between the runs of a sweep; None where none reaches it."""
+    """The least time for an error, between the runs of a sweep; None where none reaches it. Where a
+    run is suddenly exact, nothing is told between it and the one before."""
     runs = front(curve, key)
     for number, (time, rms) in enumerate(runs):
         if rms <= level:
             if number == 0:
                 return time
             before = runs[number - 1]
+            if before[1] > SUDDEN * rms:
+                return time
             share = np.log(before[1] / level) / np.log(before[1] / rms)
             return float(before[0] * (time / before[0])**share)
     return None

@@ -10,7 +10,9 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from accuracy.lamp import POINT, Lamp
+from accuracy.scenes import ROOT, Scene
+
 BANDS = 3
 
 
@@ -45,6 +47,12 @@ class Furnished:
 
     def __len__(self):
         return len(self.cells)
+
+    def plain(self):
+        """The same as plain numbers for other programs."""
+        lamps = [Lamp(POINT, np.full(BANDS, self.intensity), position=place) for place in self.lamps]
+        return Scene("furnished", "furnished rooms", BANDS, self.corners, reflectance=self.reflectance,
+                     exitance=self.exitance, lamps=lamps, indirect=True)
 
     def surface(self):
         data = vtkPolyData()

@@ -74,7 +74,7 @@ def test_all_pairs_of_methods():
             a, b = runs[one], runs[other]
             inside = np.abs(a.e - b.e) <= np.hypot(a.error, b.error)
             # Values of one scene err together; over all scenes the contract holds. Links through
-            # slats are Hierarchical's weakest case (docs/accuracy.md).
+            # slats are Hierarchical's weakest case (docs/hard-cases.md).
             least = 0.7 if name == "slats" else 0.9
             assert inside.mean() >= least, (name, one, other, inside.mean())
             agree[one, other].append(inside.mean())

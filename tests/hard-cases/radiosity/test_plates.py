@@ -65,7 +65,7 @@ def test_every_method_within_its_error():
             e = exact(gap, 0.6, 0.8)
             off = np.abs(run.e[:, 0] - e)
             # What gets out at the rim of the nearest pairs no ray of MonteCarlo meets, and far plates
-            # neither (a known weakness, docs/accuracy.md): it is held to the tolerance there, and left
+            # neither (a known weakness, docs/hard-cases.md): it is held to the tolerance there, and left
             # out where it may see nothing at all.
             unseen = 1e-5 * (gap < 1e-5)
             if method == METHODS["MonteCarlo"]:

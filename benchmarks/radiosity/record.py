@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from provenance import provenance, write  # noqa: F401
