@@ -4,6 +4,8 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
+import time
 
 import numpy as np
 
@@ -20,10 +22,12 @@ def run_ranks(script, sizes, symmetric=True, *arguments, timeout=240):
                        OMPI_MCA_mpi_yield_when_idle="1", PYTHONUNBUFFERED="1")
     path = os.path.join(os.path.dirname(os.path.abspath(__file__)), script)
     for size in sizes:
-        done = subprocess.run(["mpiexec", "-np", str(size), "pvbatch",
-                               *(["--sym"] if symmetric else []), path, *arguments],
-                              env=environment, timeout=timeout, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(["mpiexec", "-np", str(size), "pvbatch",
+                                   *(["--sym"] if symmetric else []), path, *arguments],
+                                  env=dict(environment, RADIOMETRY_RANKS_FOLDER=folder),
+                                  timeout=timeout, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
         print(done.stdout)
         assert done.returncode == 0, (script, size, done.returncode)
         # pvbatch ends with 0 whatever a script did: it says itself that it came to its end.
@@ -58,6 +62,60 @@ def rank():
 
 def size():
     return controller().GetNumberOfProcesses() if controller() else 1
+
+
+class Alone:
+    """A filter as one process runs it: rank 0 does, in one thread, and the others take its outputs from
+    a file, for which they wait asleep. All ranks ask in the same order."""
+    asked = 0
+
+    def __init__(self, filtered):
+        filtered.SetController(None)
+        filtered.SetNumberOfThreads(1)
+        self._filter = filtered
+        self._outputs = None
+
+    def __getattr__(self, name):
+        if name.startswith(("Set", "Add", "Remove")):
+            self._outputs = None
+        return getattr(self._filter, name)
+
+    def Update(self):
+        if self._outputs is None:
+            ports = range(self._filter.GetNumberOfOutputPorts())
+            paths = [os.path.join(os.environ["RADIOMETRY_RANKS_FOLDER"], f"{Alone.asked}.{port}")
+                     for port in ports]
+            Alone.asked += 1
+            if rank() == 0:
+                self._filter.Update()
+                self._outputs = [self._filter.GetOutputDataObject(port) for port in ports]
+                for path, output in zip(paths, self._outputs):
+                    write(path, output)
+            else:
+                self._outputs = [read(path) for path in paths]
+
+    def GetOutputDataObject(self, port):
+        return self._outputs[port]
+
+
+def write(path, data):
+    import vtkmodules.all as vtk
+    writer = vtk.vtkGenericDataObjectWriter()
+    writer.SetFileTypeToBinary()
+    writer.SetFileName(path + ".part")
+    writer.SetInputData(data)
+    assert writer.Write() == 1, path
+    os.rename(path + ".part", path)
+
+
+def read(path):
+    import vtkmodules.all as vtk
+    while not os.path.exists(path):
+        time.sleep(0.005)
+    reader = vtk.vtkGenericDataObjectReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
 
 
 def set_array(attributes, name, values):

@@ -4,7 +4,7 @@ in pvbatch --sym: every rank goes through all checks."""
 import numpy as np
 import vtkmodules.all as vtk
 from checks import Errors, array, simulation
-from rank_parts import Scene, in_ranks, rank, room, set_array, size, surface
+from rank_parts import Alone, Scene, in_ranks, rank, room, set_array, size, surface
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkradiometry import (vtkAreaLightSource, vtkEnvironmentLightSource, vtkIrradianceFilter,
                            vtkPointLightSource, vtkSpotLightSource, vtkViewFactorFilter)
@@ -47,10 +47,7 @@ def light_data(sources):
 
 def irradiance(data, *lights, alone=False, **properties):
     f = simulation(vtkIrradianceFilter, data, *lights, **{"RelativeTolerance": 0.1, **properties})
-    if alone:
-        f.SetController(None)
-        f.SetNumberOfThreads(1)  # other ranks do the same
-    return f
+    return Alone(f) if alone else f
 
 
 def result(f, name="Irradiance", points=False):
@@ -339,9 +336,7 @@ def check_view_factors():
         f.SetInputData(data)
         f.SetPatchArray("Group")
         f.SetRelativeTolerance(0.1)
-        if alone:
-            f.SetController(None)
-            f.SetNumberOfThreads(1)
+        f = Alone(f) if alone else f
         f.Update()
         out.append(f)
     f, whole = out

@@ -3,7 +3,7 @@
 pvbatch --sym: every rank goes through all checks."""
 import numpy as np
 from checks import Errors, array
-from rank_parts import in_ranks, rank, room, set_array, size
+from rank_parts import Alone, in_ranks, rank, room, set_array, size
 from vtkradiometry import vtkPointLightSource, vtkRadianceFilter
 
 ROOM = room(2)
@@ -22,10 +22,7 @@ def radiance(data, alone=False):
     f.SetInputData(data)
     f.AddLightsConnection(lamp.GetOutputPort())
     f.SetRelativeTolerance(0.05)
-    if alone:
-        f.SetController(None)
-        f.SetNumberOfThreads(1)
-    return f
+    return Alone(f) if alone else f
 
 
 def check_parts_give_the_bytes_of_one_process():

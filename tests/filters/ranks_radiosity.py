@@ -4,7 +4,7 @@ in pvbatch --sym: every rank goes through all checks."""
 import numpy as np
 import vtkmodules.all as vtk
 from checks import Errors, array, simulation
-from rank_parts import Scene, in_ranks, rank, set_array, size
+from rank_parts import Alone, Scene, in_ranks, rank, set_array, size
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkradiometry import vtkPointLightSource, vtkRadiosityFilter
 
@@ -39,10 +39,7 @@ def lamp(x=1.5, intensity=3.0):
 
 def radiosity(data, *lights, alone=False, **properties):
     f = simulation(vtkRadiosityFilter, data, *lights, **{"RelativeTolerance": 0.1, **properties})
-    if alone:
-        f.SetController(None)
-        f.SetNumberOfThreads(1)  # other ranks do the same
-    return f
+    return Alone(f) if alone else f
 
 
 def result(f, name="Irradiance", points=False):

@@ -3,7 +3,7 @@
 test_ranks_view_factors.py in pvbatch --sym: every rank goes through all checks."""
 import numpy as np
 from checks import Errors, array
-from rank_parts import in_ranks, rank, room, set_array, size
+from rank_parts import Alone, in_ranks, rank, room, set_array, size
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkradiometry import vtkViewFactorFilter
 
@@ -19,10 +19,7 @@ def view_factors(data, alone=False, **properties):
     f.SetInputData(data)
     for name, value in {"RelativeTolerance": 0.05, "AbsoluteTolerance": 2e-3, **properties}.items():
         getattr(f, "Set" + name)(value)
-    if alone:
-        f.SetController(None)
-        f.SetNumberOfThreads(1)  # other ranks do the same
-    return f
+    return Alone(f) if alone else f
 
 
 def rows(f):

@@ -5,7 +5,7 @@ import tempfile
 
 from rank_parts import run_ranks
 
-run_ranks("ranks_irradiance.py", (2, 4))
+run_ranks("ranks_irradiance.py", (2, 3))
 with tempfile.TemporaryDirectory() as folder:
-    for ranks in (1, 3):
+    for ranks in (1, 2):
         run_ranks("ranks_paraview.py", (ranks,), False, os.path.join(folder, "one.json"))
