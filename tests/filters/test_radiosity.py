@@ -96,7 +96,7 @@ def test_methods_agree_within_their_errors():
     append.AddInputData(with_array(box.GetOutput(), "DiffuseReflectance", 0.5))
     append.Update()
     light = lamp((0.6, 0.8, 2.7), 1000 * K)
-    runs = [radiosity(append.GetOutput(), light, Method=m, RelativeTolerance=0.02)
+    runs = [radiosity(append.GetOutput(), light, Method=m, RelativeTolerance=0.04)
             for m in (DENSE, MONTE_CARLO)]
     e = [values(f, "Irradiance") for f in runs]
     error = [values(f, "IrradianceError") for f in runs]

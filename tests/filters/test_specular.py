@@ -102,16 +102,18 @@ def test_cavity_of_paint_and_mirror():
     # Any cavity: what is absorbed is what came, E = Phi/(S (1 - rho_d - rho_s)).
     for diffuse, specular in ((0.5, 0.3), (0.1, 0.8), (0.39, 0.6)):
         f = radiosity(optics(room(4, 3), diffuse, specular), lamp((1.7, 2.1, 3.0), 1000 * K),
-                      RelativeTolerance=0.05)
+                      RelativeTolerance=0.1)
         close(mean(f), 1000 / 96 / (1 - diffuse - specular), 0.02)
         assert method(f).startswith("MonteCarlo"), method(f)
 
 
 def test_a_lossless_cavity_is_an_error():
     light = lamp((1.7, 2.1, 3.0), 1000)
-    message = fails(radiosity(optics(room(4, 2), 0.5, 0.5), light), "closed cavity")
+    message = fails(radiosity(optics(room(4, 2), 0.5, 0.5), light, RelativeTolerance=0.3),
+                    "closed cavity")
     assert "absorbs none" in message or "no" in message
-    fails(radiosity(optics(room(4, 2), 0.0, 1.0), light), "SpecularReflectance")
+    fails(radiosity(optics(room(4, 2), 0.0, 1.0), light, RelativeTolerance=0.3),
+          "SpecularReflectance")
 
 
 def test_panes_pass_what_surfaces_send():
