@@ -21,7 +21,9 @@ if not shutil.which("mpiexec") or not shutil.which("pvserver"):
 
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "servers_scene.py")
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                   OMPI_MCA_rmaps_base_oversubscribe="1")
+                   OMPI_MCA_rmaps_base_oversubscribe="1",
+                   OMPI_MCA_hwloc_base_binding_policy="none",
+                   OMPI_MCA_mpi_yield_when_idle="1")
 # What that folder holds is loaded at the start, and a second time is an error.
 ENVIRONMENT.pop("PV_PLUGIN_PATH", None)
 PICTURES = ("local", "remote", "moved", "state")

@@ -26,7 +26,9 @@ if not all(shutil.which(program) for program in ("mpiexec", "pvbatch", "pvserver
 
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_scene.py")
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                   OMPI_MCA_rmaps_base_oversubscribe="1")
+                   OMPI_MCA_rmaps_base_oversubscribe="1",
+                   OMPI_MCA_hwloc_base_binding_policy="none",
+                   OMPI_MCA_mpi_yield_when_idle="1")
 for _name in ("OCIO", "PV_PLUGIN_PATH"):  # the plugin is loaded once, by its file
     ENVIRONMENT.pop(_name, None)
 

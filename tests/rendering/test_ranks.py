@@ -19,7 +19,9 @@ if not shutil.which("mpiexec") or not shutil.which("pvbatch"):
 
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "ranks_scene.py")
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                   OMPI_MCA_rmaps_base_oversubscribe="1")
+                   OMPI_MCA_rmaps_base_oversubscribe="1",
+                   OMPI_MCA_hwloc_base_binding_policy="none",
+                   OMPI_MCA_mpi_yield_when_idle="1")
 
 
 def draw(folder, name, before=(), after=()):
