@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/effects/SceneEffects.h"
 
-#include "radiometry/geometry/SolidAngle.h"
 #include "radiometry/visibility/Convexity.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace radiometry
@@ -70,89 +68,6 @@ bool LightsInside(const Scene& scene)
   return true;
 }
 
-/// Specular reflectance of a triangle's cell, the greatest of sides and bands.
-double SpecularOf(const Materials& optics, std::int32_t cell)
-{
-  double greatest = 0.0;
-  for (const std::vector<double>& values : optics.SpecularReflectance)
-  {
-    for (int b = 0; b < optics.Bands && !values.empty(); ++b)
-    {
-      greatest = std::max(greatest, values[static_cast<std::size_t>(cell * optics.Bands + b)]);
-    }
-  }
-  return greatest;
-}
-
-/// What all mirrors send on of point-like and directional lights and of skies (of which no plane gets
-/// more than `sky`, W/m^2), were nothing in the way and every
-/// mirror two-sided [W, brightest band], and the smallest cell's area it may fall on.
-double SpecularFlux(const Scene& scene, double sky, double& smallest)
-{
-  constexpr double Sphere = 4.0 * 3.14159265358979323846;
-  constexpr std::size_t MostPairs = 20000000;
-  std::vector<double> areas(scene.Cells, 0.0);
-  std::vector<std::size_t> mirrors;
-  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
-  {
-    areas[static_cast<std::size_t>(scene.TriangleCell[t])] += Area(scene.TriangleAt(t));
-    if (SpecularOf(scene.Optics, scene.TriangleCell[t]) > 0.0)
-    {
-      mirrors.push_back(t);
-    }
-  }
-  smallest = std::numeric_limits<double>::infinity();
-  for (const double a : areas)
-  {
-    smallest = a > 0.0 ? std::min(smallest, a) : smallest;
-  }
-  const bool few = mirrors.size() * scene.Lights.size() <= MostPairs;
-  const double most = Greatest(scene.Optics.SpecularReflectance);
-  double flux = 0.0;
-  for (const std::size_t t : mirrors)
-  {
-    flux += 2.0 * sky * SpecularOf(scene.Optics, scene.TriangleCell[t]) * Area(scene.TriangleAt(t));
-  }
-  for (const Light& light : scene.Lights)
-  {
-    if (!light.Enabled || light.Type == LightType::Area || light.Type == LightType::Environment)
-    {
-      continue;
-    }
-    const double intensity = Greatest(light.Intensity);
-    const bool beam = light.Type == LightType::Directional;
-    if (!few && !beam)
-    {
-      flux += most * intensity * Sphere;
-      continue;
-    }
-    for (const std::size_t t : mirrors)
-    {
-      const Triangle3 v = scene.TriangleAt(t);
-      const double reflected = SpecularOf(scene.Optics, scene.TriangleCell[t]) * intensity;
-      flux += reflected *
-        (beam ? std::fabs(0.5 * Dot(AreaNormal2(v), light.Direction))
-              : std::fabs(SolidAngle(v[0] - light.Position, v[1] - light.Position,
-                  v[2] - light.Position)));
-    }
-  }
-  return flux;
-}
-
-/// The greatest pi L of panels, W/m^2, brightest band.
-double GreatestExtended(const Scene& scene)
-{
-  double greatest = 0.0;
-  for (const Light& light : scene.Lights)
-  {
-    if (light.Enabled && light.Type == LightType::Area)
-    {
-      greatest = std::max(greatest, Greatest(light.Intensity));
-    }
-  }
-  return greatest;
-}
-
 } // namespace
 
 SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& switches,
@@ -160,6 +75,9 @@ SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& 
   : Whole(scene)
   , Groups(SingleBands(scene.Optics.Bands))
   , Decided(switches)
+  , Limits(scene, points, cells)
+  , RelativeTolerance(abilities.RelativeTolerance)
+  , AbsoluteTolerance(abilities.AbsoluteTolerance)
   , Indirect(abilities.Interreflection)
   , Paths(abilities.Paths)
 {
@@ -216,16 +134,6 @@ SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& 
                     : (lit ? "nothing faces the surfaces that reflect specularly" : "no light is on"),
     "surfaces reflect specularly up to " + std::to_string(specular) +
       (abilities.Paths ? ": light is followed over them" : noPaths));
-  EffectDecision& mirrors = plan[Effect::SpecularTransport];
-  const double lost = 1.0 - reflectance - specular - transmitted - diffused;
-  if (mirrors.Simulated && specular <= 0.1 * abilities.RelativeTolerance * lost &&
-    mirrors.Wish == EffectSwitch::Auto)
-  {
-    mirrors.Simulated = false;
-    mirrors.Dropped = true;
-    mirrors.Why = "surfaces reflect specularly up to " + std::to_string(specular) +
-      " only: less than a tenth of the tolerance";
-  }
   this->Panes = transmitted > 0.0 && plan[Effect::Occlusion].Present;
   const std::string through = diffused > 0.0
     ? "cells let up to " + std::to_string(diffused) + " of the light through diffusely" +
@@ -264,6 +172,10 @@ SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& 
   plan[Effect::Mirrors].Present = perfect && plan[Effect::SpecularTransport].Present;
   this->DecideBands();
   this->DecideSampling(abilities, points, cells);
+  if (abilities.Drops)
+  {
+    this->DropSmall(abilities);
+  }
   this->Reduce();
 }
 
@@ -366,84 +278,82 @@ bool SceneEffects::CallsForPaths() const
     (this->Decided.Simulates(Effect::SpecularTransport) || this->PassesPanes());
 }
 
-void SceneEffects::Bound(
-  double peak, double peakBack, double spot, double attenuation, double sky)
+const std::vector<SurfacePoint>& SceneEffects::NoPoints()
 {
-  const Scene& scene = this->Whole;
+  static const std::vector<SurfacePoint> none;
+  return none;
+}
+
+bool SceneEffects::FollowsLight() const
+{
+  return this->Indirect &&
+    (this->Decided.Simulates(Effect::Interreflection) || this->CallsForPaths());
+}
+
+double SceneEffects::Allowed(double least) const
+{
+  return 0.25 * std::max(this->AbsoluteTolerance, this->RelativeTolerance * least);
+}
+
+bool SceneEffects::Drop(Effect effect, double allowed)
+{
   EffectPlan& plan = this->Decided;
-  const double infinite = std::numeric_limits<double>::infinity();
-  const Materials& optics = scene.Optics;
-  const double emitted = Greatest(optics.EmittedExitance);
-  const double specular = Greatest(optics.SpecularReflectance);
-  const double transmitted = GreatestTransmittance(scene);
-  const double ambient = Greatest(scene.GlobalAmbient);
-  const double diffuse = Greatest(optics.DiffuseReflectance);
-  const double diffused = Greatest(optics.DiffuseTransmittance);
-  const double reflectance = diffuse + specular + transmitted + diffused;
-  // No point gets more than all that any surface sends, were it all around it: E0/(1 - rho).
-  const double direct = std::max(peak, peakBack);
-  const double sent = (direct + ambient) * reflectance + emitted;
-  const double indirect = reflectance < 1.0 ? sent / (1.0 - reflectance) : infinite;
-  const auto orNothing = [](double factor, double value) { return factor > 0.0 ? value : 0.0; };
-
-  // Through panes: what comes straight; then all that any surface sends, and what that adds by
-  // reflection.
-  const double passing = this->Indirect && !this->Paths
-    ? orNothing(transmitted,
-        reflectance < 1.0 ? transmitted * indirect / (1.0 - diffuse - diffused) : infinite)
-    : 0.0;
-  // What cells that diffuse send on, and what that adds by reflection.
-  const double spread = orNothing(diffused,
-    reflectance < 1.0 ? diffused * (direct + ambient + indirect) / (1.0 - reflectance) : infinite);
-
-  // Over mirrors the radiance of extended sources stays what it is; that of points may be gathered.
-  double specularBound = 0.0;
-  const EffectDecision& mirrors = plan[Effect::SpecularTransport];
-  if (mirrors.Present && !mirrors.Simulated)
+  const EffectDecision& d = plan[effect];
+  if (!d.Simulated || !d.Present || d.Wish != EffectSwitch::Auto || !(allowed > 0.0) ||
+    !plan.Drop(effect, this->Limits.Of(effect, plan, this->FollowsLight()), allowed))
   {
-    double smallest = 0.0;
-    const double flux = SpecularFlux(scene, sky, smallest);
-    const double extended =
-      specular * (GreatestExtended(scene) + ambient + indirect + emitted);
-    specularBound = reflectance < 1.0
-      ? (extended + orNothing(flux, flux / smallest)) / (1.0 - reflectance)
-      : orNothing(extended + flux, infinite);
+    return false;
   }
-
-  const double reflected = reflectance < 1.0
-    ? (peak + ambient + emitted) * reflectance / (1.0 - reflectance)
-    : orNothing(peak + ambient + emitted, infinite);
-  const auto withReflection = [&](double value) {
-    return orNothing(value, reflectance < 1.0 ? value / (1.0 - reflectance) : infinite);
-  };
-  const std::pair<Effect, double> bounds[] = {
-    { Effect::Occlusion, peak + emitted },
-    { Effect::Interreflection, reflected },
-    { Effect::SpecularTransport, specularBound },
-    { Effect::Transmission,
-      orNothing(transmitted, transmitted * (direct + emitted) + passing) + spread },
-    { Effect::BackFaces, peakBack },
-    { Effect::Emission, withReflection(emitted) },
-    { Effect::Environment, withReflection(sky) },
-    { Effect::SpotShape, spot },
-    { Effect::Attenuation, attenuation },
-    { Effect::PointLights, withReflection(direct) },
-    { Effect::SpotLights, withReflection(direct) },
-    { Effect::DirectionalLights, withReflection(direct) },
-    { Effect::AreaLights, withReflection(direct) },
-    { Effect::CandelaWebs, infinite },
-    { Effect::Mirrors, specularBound },
-    { Effect::SpectralBands, infinite },
-    { Effect::Discretisation, withReflection(direct) },
-  };
-  for (const auto& [effect, bound] : bounds)
+  EffectDecision& mirrors = plan[Effect::Mirrors];
+  if (effect == Effect::SpecularTransport && mirrors.Simulated)
   {
-    plan[effect].Bound = plan.LeavesOut(effect) ? bound : 0.0;
+    mirrors.Simulated = false;
+    mirrors.Dropped = true; // the bound is that of SpecularTransport
+    mirrors.Why += "; dropped with SpecularTransport, whose bound holds for both";
+  }
+  return true;
+}
+
+void SceneEffects::DropSmall(const EffectAbilities& abilities)
+{
+  const double allowed = this->Allowed(this->Limits.LeastValue());
+  if (!(allowed > 0.0))
+  {
+    return;
+  }
+  // What takes longest comes first. Backs stay: their values are asked for. Without a light there is
+  // nothing that could be hidden.
+  for (const Effect effect : { Effect::SpecularTransport, Effect::Interreflection,
+         Effect::Transmission, Effect::Environment, Effect::AreaLights, Effect::Emission,
+         Effect::CandelaWebs, Effect::Attenuation, Effect::SpotShape, Effect::PointLights,
+         Effect::SpotLights, Effect::DirectionalLights, Effect::Mirrors, Effect::SpectralBands })
+  {
+    this->Drop(effect, allowed);
+  }
+  if (!abilities.Interreflection)
+  {
+    this->Drop(Effect::Occlusion, allowed);
+  }
+}
+
+void SceneEffects::Bound(double computed)
+{
+  EffectPlan& plan = this->Decided;
+  for (int k = 0; k < EffectCount; ++k)
+  {
+    const auto effect = static_cast<Effect>(k);
+    EffectDecision& d = plan[effect];
+    if (d.Known && !d.Dropped)
+    {
+      d.Bound = plan.LeavesOut(effect)
+        ? this->Limits.Of(effect, plan, this->FollowsLight(), computed)
+        : 0.0;
+    }
   }
   EffectDecision& panes = plan[Effect::Transmission];
   if (panes.Present && panes.Simulated)
   {
-    panes.Bound = passing + (this->Indirect ? 0.0 : spread);
+    panes.Bound = this->Limits.OfTransmissionBeside(plan, this->FollowsLight(), this->Paths);
   }
 }
 

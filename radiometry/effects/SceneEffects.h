@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "radiometry/effects/EffectBounds.h"
 #include "radiometry/effects/EffectPlan.h"
 #include "radiometry/effects/SimulatedScene.h"
 #include "radiometry/scene/Patch.h"
@@ -30,7 +31,11 @@ struct EffectAbilities
   EffectSwitch Refinement = EffectSwitch::Off; // elements finer than the cells
 };
 
-/// Decides, effect by effect, what a scene calls for, before anything is simulated.
+/// Decides, effect by effect, what a scene calls for, before anything is simulated; Auto also drops
+/// what cannot matter: present effects whose bounds stay, together, within a quarter of the tolerance
+/// of every value. That is AbsoluteTolerance, or RelativeTolerance of what nothing hides (global
+/// ambient light), if that is more. Cost: a pass over the optical arrays; the bounds are only looked
+/// at where something may be dropped or was left out.
 ///   PointLights, SpotLights, DirectionalLights, AreaLights, Environment
 ///                  lights of that kind are on; left out: they are off
 ///   SpotShape, Attenuation, CandelaWebs
@@ -51,10 +56,11 @@ class SceneEffects
 {
 public:
   /// Values are wanted as averages over `cells`, at `points`, or both: free ones are off the surface,
-  /// where even a convex body hides lights. `scene` must outlive this.
+  /// where even a convex body hides lights. `scene` and `points` must outlive this.
   SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& switches,
-    const EffectAbilities& abilities, const std::vector<SurfacePoint>& points = {},
+    const EffectAbilities& abilities, const std::vector<SurfacePoint>& points = NoPoints(),
     bool cells = true);
+  static const std::vector<SurfacePoint>& NoPoints();
 
   const EffectPlan& Plan() const { return this->Decided; }
   EffectPlan& Plan() { return this->Decided; }
@@ -76,21 +82,26 @@ public:
     return this->Panes && this->Decided.Simulates(Effect::Transmission);
   }
 
-  /// Gives each effect that the scene has and the run left out its bound.
-  /// `peak`: the greatest irradiance by direct light that any cell could get, nothing in the way
-  /// (W/m^2, strongest band); `peakBack` the same of back faces; `spot` and `attenuation` the
-  /// greatest change of a cell's unshadowed irradiance by those effects.
-  /// `sky`: the greatest irradiance that environment lights can give.
-  ///   Specular  of any cell's average: what mirrors may send on of the radiance of surfaces, panels
-  ///             and skies, all around; and all that they get from point-like and directional lights
-  ///             brought to one cell, for a hollow mirror may do that
-  void Bound(double peak, double peakBack, double spot, double attenuation, double sky = 0.0);
+  /// Gives each effect that the scene has and the run left out its bound (EffectBounds.h).
+  /// `computed`: the greatest irradiance with its error that the run came to, W/m^2.
+  void Bound(double computed);
+
+  /// Auto leaves a present effect out where its bound, with those dropped before, is within `allowed`
+  /// [W/m^2]: for what is only known when the run has begun. The flags of the run are the caller's.
+  bool Drop(Effect effect, double allowed);
+  /// What may be dropped in all of a value of at least `least` W/m^2: a quarter of its tolerance.
+  double Allowed(double least) const;
+  EffectBounds& Bounds() { return this->Limits; }
 
 private:
   void DecideLights();
   void DecideBands();
   void DecideSampling(const EffectAbilities& abilities, const std::vector<SurfacePoint>& points,
     bool cells);
+  /// Auto drops what cannot matter beside the tolerance of any value.
+  void DropSmall(const EffectAbilities& abilities);
+  /// Whether light is followed from surface to surface.
+  bool FollowsLight() const;
   /// Makes the scene that is simulated, where it is not the whole.
   void Reduce();
 
@@ -98,6 +109,9 @@ private:
   std::unique_ptr<Scene> Reduced;
   BandGroups Groups;
   EffectPlan Decided;
+  EffectBounds Limits;
+  double RelativeTolerance;
+  double AbsoluteTolerance;
   bool Indirect; // the run follows light from surface to surface
   bool Paths;    // ... over mirrors and through panes
   bool Panes = false; // that stand between something

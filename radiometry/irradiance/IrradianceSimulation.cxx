@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/IrradianceSimulation.h"
 
-#include "radiometry/irradiance/SkyIrradiance.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace radiometry
 {
-namespace
-{
-
-double GreatestDifference(const std::vector<double>& a, const std::vector<double>& b)
-{
-  double greatest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    greatest = std::max(greatest, std::fabs(a[i] - b[i]));
-  }
-  return greatest;
-}
-
-} // namespace
-
 std::vector<Patch> MakePatches(const Scene& scene, int side)
 {
   std::vector<Patch> patches;
@@ -87,52 +70,34 @@ FieldValues AverageOver(std::size_t count, int bandCount, const std::vector<Patc
   return out;
 }
 
-void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
-  SceneEffects& effects, const Communicator* ranks)
+double GreatestValue(std::initializer_list<const std::array<FieldValues, 2>*> fields)
 {
-  const EffectPlan& plan = effects.Plan();
-  const auto leftOut = [&](Effect effect) { return plan.LeavesOut(effect); };
-  DirectOptions bare;
-  bare.Occlusion = false;
-  bare.Threads = threads;
-  bare.Ranks = ranks;
-  if ((plan.LeavesOut() || plan[Effect::Transmission].Present) && peak < 0.0)
+  double greatest = 0.0;
+  for (const std::array<FieldValues, 2>* sides : fields)
   {
-    for (int side = 0; side < 2; ++side)
+    for (const FieldValues& field : *sides)
     {
-      peak = std::max(peak,
-        ComputeDirectIrradiance(scene, occluders, MakePatches(scene, side), bare).PeakUnshadowed);
+      for (std::size_t k = 0; k < field.Values.size(); ++k)
+      {
+        greatest = std::max(greatest, field.Values[k] + field.Errors[k]);
+      }
     }
   }
-  double peakBack = 0.0;
-  double spot = 0.0;
-  double attenuation = 0.0;
-  if (leftOut(Effect::BackFaces))
+  return greatest;
+}
+
+void AddDropped(double bound, std::initializer_list<std::array<FieldValues, 2>*> fields)
+{
+  for (std::array<FieldValues, 2>* sides : fields)
   {
-    peakBack =
-      ComputeDirectIrradiance(scene, occluders, MakePatches(scene, 1), bare).PeakUnshadowed;
-  }
-  for (int side = 0; side < 2; ++side)
-  {
-    const auto without = [&](Effect effect, bool DirectOptions::*flag, double& change) {
-      if (leftOut(effect))
+    for (FieldValues& field : *sides)
+    {
+      for (double& error : field.Errors)
       {
-        const std::vector<Patch> patches = MakePatches(scene, side);
-        DirectOptions less = bare;
-        less.*flag = false;
-        const DirectResult full = ComputeDirectIrradiance(scene, occluders, patches, bare);
-        const DirectResult simple = ComputeDirectIrradiance(scene, occluders, patches, less);
-        change = std::max(change, GreatestDifference(full.Irradiance, simple.Irradiance));
-        peak = std::max(peak, full.PeakUnshadowed);
+        error += bound;
       }
-    };
-    without(Effect::SpotShape, &DirectOptions::SpotShape, spot);
-    without(Effect::Attenuation, &DirectOptions::Attenuation, attenuation);
+    }
   }
-  const double sky = leftOut(Effect::Environment) || leftOut(Effect::SpecularTransport)
-    ? GreatestSkyIrradiance(scene)
-    : 0.0;
-  effects.Bound(peak, peakBack, spot, attenuation, sky);
 }
 
 IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<SurfacePoint>& points,
@@ -150,6 +115,7 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
   abilities.Transmission = true;
   abilities.RelativeTolerance = options.RelativeTolerance;
   abilities.AbsoluteTolerance = options.AbsoluteTolerance;
+  abilities.Drops = !options.LightVisibility; // of each light by itself
   SceneEffects effects(given, options.Switches, abilities, points, options.Cells);
   EffectPlan& plan = effects.Plan();
   const Scene& scene = effects.Simulated();
@@ -169,7 +135,6 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
 
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;
   bool timedOut = false;
-  double peak = 0.0;
   std::int64_t rays = 0;
   const auto limit = [&] {
     if (options.TimeBudget > 0.0)
@@ -212,7 +177,6 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
         AverageOver(items, scene.Optics.Bands, patches, side, r.Irradiance, r.Error, common);
     }
     timedOut = r.TimedOut;
-    peak = r.PeakUnshadowed;
     rays = r.Rays;
     result.DroppedPeak = r.DroppedPeak;
     result.DroppedMean = r.DroppedMean;
@@ -235,7 +199,6 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
       { monitor, middle + (end - middle) * side / sides,
         middle + (end - middle) * (side + 1) / sides, "direct light at points" },
       side == 0 ? &result.Convergence : nullptr);
-    peak = std::max(peak, r.PeakUnshadowed);
     timedOut = timedOut || r.TimedOut;
     rays += r.Rays;
     result.DroppedPeak = std::max(result.DroppedPeak, r.DroppedPeak);
@@ -265,7 +228,8 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
       values->Errors = effects.AllBands(std::move(values->Errors));
     }
   }
-  BoundLeftOut(given, occluders, &scene == &given ? peak : -1.0, options.Threads, effects, options.Ranks);
+  AddDropped(plan.DroppedBound(), { &result.Cells, &result.Points });
+  effects.Bound(GreatestValue({ &result.Cells, &result.Points }));
   result.Effects = plan.Decisions();
   result.Cost.Seconds = result.Convergence.Elapsed();
   result.Cost.Samples = rays;

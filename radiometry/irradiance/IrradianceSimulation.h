@@ -11,6 +11,7 @@
 #include "radiometry/scene/Scene.h"
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -69,10 +70,9 @@ FieldValues AverageOver(std::size_t count, int bands, const std::vector<Patch>& 
   const std::vector<double>& values, const std::vector<double>& errors,
   const std::vector<float>& dropped = {});
 
-/// Bounds what a plan left out, from the greatest unshadowed irradiance that the run met (below 0:
-/// not known). What only the effects left out need is computed here, without a ray; by `ranks`
-/// together where there are several.
-void BoundLeftOut(const Scene& scene, const OcclusionScene& occluders, double peak, int threads,
-  SceneEffects& effects, const Communicator* ranks = nullptr);
+/// The greatest value with its error of fields; 0: there are none.
+double GreatestValue(std::initializer_list<const std::array<FieldValues, 2>*> fields);
+/// Adds to the errors of all values what may have been dropped of each.
+void AddDropped(double bound, std::initializer_list<std::array<FieldValues, 2>*> fields);
 
 } // namespace radiometry

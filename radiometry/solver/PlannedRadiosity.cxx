@@ -133,6 +133,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   abilities.Transmission = true;
   abilities.RelativeTolerance = options.RelativeTolerance;
   abilities.AbsoluteTolerance = options.AbsoluteTolerance;
+  abilities.Drops = !options.LightVisibility; // of each light by itself
   const bool rays =
     options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo;
   const bool unoccluded = switches[static_cast<int>(Effect::Occlusion)] == EffectSwitch::Off;
@@ -222,7 +223,9 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
       values->Errors = effects.AllBands(std::move(values->Errors));
     }
   }
-  BoundLeftOut(given, occluders, -1.0, options.Threads, effects, options.Ranks);
+  AddDropped(plan.DroppedBound(), { &out.Cells.Irradiance, &out.Cells.Radiosity,
+    &out.PointIrradiance, &out.PointRadiosity });
+  effects.Bound(GreatestValue({ &out.Cells.Irradiance, &out.PointIrradiance }));
   out.Effects = plan.Decisions();
   out.Cost.Seconds = clock.Elapsed();
   out.Cost.Samples = out.Cells.Samples;

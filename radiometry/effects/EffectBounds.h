@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "radiometry/effects/EffectPlan.h"
+#include "radiometry/effects/FirstLight.h"
+#include "radiometry/effects/OpticalLimits.h"
+#include "radiometry/effects/SpecularReach.h"
+#include "radiometry/scene/Patch.h"
+#include "radiometry/scene/Scene.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace radiometry
+{
+
+/// What leaving an effect out can change of any value: irradiance of either side of a cell or point,
+/// and what leaves there [W/m^2, brightest band].
+///
+/// Every bound is one on the light that has to do with the effect (all light is positive):
+///   V       its first light at values that are wanted, P at any place, Phi its flux (FirstLight.h)
+///   A, M    global ambient light; exitance of emitters
+///   d, s, t greatest of diffuse reflection and transmission, of specular reflection and panes
+///           together (what stays radiance), of panes alone; R of all (OpticalLimits.h)
+///   X       light over mirrors and lobes (SpecularReach.h)
+/// Surfaces that send at most the radiance L/pi give no place more than L, were they all around it;
+/// what they get they pass on R-fold at most, so that light that met k surfaces is at most R^k of what
+/// it was, and all that follows on it 1/(1 - R). Hence
+///   Y(P) = d P/(1 - R)   all that surfaces make by diffuse reflection of first light P at any place;
+///          of averages over cells also d Phi/((1 - R) A_min): flux only gets less
+///   E    = M/(1 - s)     of emitters, with what stays radiance of it
+///   B    = E + Y(P + A + X + E)     all light that left a surface
+/// and of each effect
+///   a kind of light, Environment        V + X + Y(P + X) of these lights
+///   SpotShape, Attenuation, CandelaWebs the same of what they change, X of those lights
+///   GlobalAmbient                       A + Y(A)
+///   Emission                            E + Y(E)
+///   Interreflection                     Y(P + A + X + E); after n reflections R^n times that
+///   SpecularTransport                   X + Y(X) + (A + B) rho_s/(1 - R); Mirrors: of mirrors
+///   Transmission                        t (V + X) + Y(t (P + X)) + (t B + tau_d (P + A + X + B))/(1 - R)
+///   BackFaces                           what backs get: V + A + X + B
+///   Occlusion                           what was computed without it: it is less with it
+///   SpectralBands                       the differences of all these from their means, passed on
+///   Discretisation                      Interreflection's: with any elements it is between 0 and that
+/// Where the run follows no light from surface to surface, Y, X and B are no part of an effect's bound:
+/// they are in those of Interreflection and SpecularTransport, which it leaves out.
+/// Cost: FirstLight's and, where surfaces reflect specularly, SpecularReach's; each once.
+class EffectBounds
+{
+public:
+  /// `scene` and `points` must outlive this. `plan` says what is simulated.
+  EffectBounds(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells);
+
+  /// Of an effect, as the plan stands. `computed`: the greatest value with its error that the run
+  /// without Occlusion came to; below 0: not known.
+  double Of(Effect effect, const EffectPlan& plan, bool indirect, double computed = -1.0);
+
+  /// What of Transmission a run leaves out that simulates it: of diffuse transmission where it follows
+  /// no light from surface to surface, of panes where only rays could (`paths`: it has them).
+  double OfTransmissionBeside(const EffectPlan& plan, bool indirect, bool paths);
+
+  /// Light that was reflected diffusely more than `bounces` times, on top of all other.
+  double Interreflection(const EffectPlan& plan, int bounces = 0);
+  /// After so many diffuse reflections the rest is at most `allowed`; 0: light that was never
+  /// reflected is enough. Below 0: more than `most`.
+  int BouncesFor(double allowed, const EffectPlan& plan, int most = 1000);
+
+  /// What all values are at least: global ambient light, which nothing hides (weakest band).
+  double LeastValue() const;
+
+private:
+  const FirstLight& First(const EffectPlan& plan);
+  SpecularReach Specular(const EffectPlan& plan, const std::array<bool, 5>& kinds);
+  const SpecularReach& AllSpecular(const EffectPlan& plan);
+  /// Y of light that gives `peak` at any place and `flux` in all.
+  double Spread(double peak, double flux) const;
+  double Emitted() const;
+  double AllSent(const EffectPlan& plan); // B
+  double OfLights(const EffectPlan& plan, const LightReach& reach, const std::array<bool, 5>& kinds,
+    bool indirect);
+  double OfBands(const EffectPlan& plan, bool indirect);
+
+  const Scene& Whole;
+  const std::vector<SurfacePoint>& Points;
+  bool Cells;
+  OpticalLimits Optics;
+  double Ambient = 0.0;
+  std::unique_ptr<FirstLight> Light;
+  std::unique_ptr<SpecularReach> Mirrored;
+};
+
+} // namespace radiometry
