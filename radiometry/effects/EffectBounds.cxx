@@ -76,8 +76,10 @@ const FirstLight& EffectBounds::First(const EffectPlan& plan)
 {
   if (!this->Light)
   {
-    this->Light = std::make_unique<FirstLight>(BoundFirstLight(this->Whole, this->Points,
-      this->Cells, this->Optics.TwoSided || this->Optics.Diffused > 0.0, VariantsOf(plan)));
+    const bool backs = this->Optics.TwoSided || this->Optics.Diffused > 0.0 ||
+      plan.Simulates(Effect::BackFaces); // or only asked for, of points
+    this->Light = std::make_unique<FirstLight>(
+      BoundFirstLight(this->Whole, this->Points, this->Cells, backs, VariantsOf(plan)));
   }
   return *this->Light;
 }

@@ -56,8 +56,8 @@ std::size_t CheckOff(
     return 0; // it cannot be switched off, or nothing is said
   }
   Compared what;
-  what.Radiosity = false;
-  what.Points = false;
+  what.Radiosity = true;
+  what.Backs = true;
   const EffectDifference change = Compare(less, full, row.Bound, what);
   EXPECT_EQ(change.Exceeding, 0u)
     << EffectName(effect) << " off, " << scene.What << '\n' << change.Where;
