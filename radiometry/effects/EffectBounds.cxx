@@ -72,14 +72,14 @@ LightVariants VariantsOf(const EffectPlan& plan)
 
 } // namespace
 
-const FirstLight& EffectBounds::First(const EffectPlan& plan)
+const LightBounds& EffectBounds::First(const EffectPlan& plan)
 {
   if (!this->Light)
   {
     const bool backs = this->Optics.TwoSided || this->Optics.Diffused > 0.0 ||
       plan.Simulates(Effect::BackFaces); // or only asked for, of points
-    this->Light = std::make_unique<FirstLight>(
-      BoundFirstLight(this->Whole, this->Points, this->Cells, backs, VariantsOf(plan)));
+    this->Light = std::make_unique<LightBounds>(
+      BoundLights(this->Whole, this->Points, this->Cells, backs, VariantsOf(plan)));
   }
   return *this->Light;
 }
@@ -165,7 +165,7 @@ double EffectBounds::OfLights(const EffectPlan& plan, const LightReach& reach,
 
 double EffectBounds::OfBands(const EffectPlan& plan, bool indirect)
 {
-  const FirstLight& first = this->First(plan);
+  const LightBounds& first = this->First(plan);
   const OpticalLimits& o = this->Optics;
   const double most =
     first.All.Value + this->Ambient + (indirect ? this->AllSent(plan) : this->Emitted());

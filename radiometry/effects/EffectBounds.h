@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radiometry/effects/EffectPlan.h"
-#include "radiometry/effects/FirstLight.h"
+#include "radiometry/effects/LightBounds.h"
 #include "radiometry/effects/OpticalLimits.h"
 #include "radiometry/effects/SpecularReach.h"
 #include "radiometry/scene/Patch.h"
@@ -19,7 +19,7 @@ namespace radiometry
 /// and what leaves there [W/m^2, brightest band].
 ///
 /// Every bound is one on the light that has to do with the effect (all light is positive):
-///   V       its first light at values that are wanted, P at any place, Phi its flux (FirstLight.h)
+///   V       its first light at values that are wanted, P at any place, Phi its flux (LightBounds.h)
 ///   A, M    global ambient light; exitance of emitters
 ///   d, s, t greatest of diffuse reflection and transmission, of specular reflection and panes
 ///           together (what stays radiance), of panes alone; R of all (OpticalLimits.h)
@@ -45,7 +45,7 @@ namespace radiometry
 ///   Discretisation                      Interreflection's: with any elements it is between 0 and that
 /// Where the run follows no light from surface to surface, Y, X and B are no part of an effect's bound:
 /// they are in those of Interreflection and SpecularTransport, which it leaves out.
-/// Cost: FirstLight's and, where surfaces reflect specularly, SpecularReach's; each once.
+/// Cost: LightBounds's and, where surfaces reflect specularly, SpecularReach's; each once.
 class EffectBounds
 {
 public:
@@ -66,11 +66,12 @@ public:
   /// reflected is enough. Below 0: more than `most`.
   int BouncesFor(double allowed, const EffectPlan& plan, int most = 1000);
 
+  const OpticalLimits& Surfaces() const { return this->Optics; }
   /// What all values are at least: global ambient light, which nothing hides (weakest band).
   double LeastValue() const;
 
 private:
-  const FirstLight& First(const EffectPlan& plan);
+  const LightBounds& First(const EffectPlan& plan);
   SpecularReach Specular(const EffectPlan& plan, const std::array<bool, 5>& kinds);
   const SpecularReach& AllSpecular(const EffectPlan& plan);
   /// Y of light that gives `peak` at any place and `flux` in all.
@@ -86,7 +87,7 @@ private:
   bool Cells;
   OpticalLimits Optics;
   double Ambient = 0.0;
-  std::unique_ptr<FirstLight> Light;
+  std::unique_ptr<LightBounds> Light;
   std::unique_ptr<SpecularReach> Mirrored;
 };
 

@@ -16,14 +16,6 @@ double Greatest(const std::vector<double>& values)
 {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
-double Greatest(const std::array<std::vector<double>, 2>& sides)
-{
-  return std::max(Greatest(sides[0]), Greatest(sides[1]));
-}
-double GreatestTransmittance(const Scene& scene)
-{
-  return std::max(Greatest(scene.Optics.Transmittance), Greatest(scene.TriangleTransmittance));
-}
 bool AnyOn(const std::vector<std::uint8_t>& flags)
 {
   return std::any_of(flags.begin(), flags.end(), [](std::uint8_t f) { return f != 0; });
@@ -104,11 +96,12 @@ SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& 
       environment = environment || light.Type == LightType::Environment;
     }
   }
-  const double emitted = Greatest(optics.EmittedExitance);
-  const double reflectance = Greatest(optics.DiffuseReflectance);
-  const double specular = Greatest(optics.SpecularReflectance);
-  const double transmitted = GreatestTransmittance(scene);
-  const double diffused = Greatest(optics.DiffuseTransmittance);
+  const OpticalLimits& surfaces = this->Limits.Surfaces();
+  const double emitted = surfaces.Emitted;
+  const double reflectance = surfaces.Reflected;
+  const double specular = surfaces.Specular;
+  const double transmitted = surfaces.Pane;
+  const double diffused = surfaces.Diffused;
   const bool lit = any || emitted > 0.0 || Greatest(scene.GlobalAmbient) > 0.0;
 
   const bool backs = twoSided || diffused > 0.0; // receive light

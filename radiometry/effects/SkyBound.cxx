@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/effects/FirstLight.h"
+#include "radiometry/effects/LightBounds.h"
 #include "radiometry/scene/SkyRadiance.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "radiometry/effects/FirstLight.h"
+#include "radiometry/effects/LightBounds.h"
 #include "radiometry/effects/OpticalLimits.h"
 #include "radiometry/scene/Scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radiometry/effects/FirstLight.h"
+#include "radiometry/effects/LightBounds.h"
 
 #include "radiometry/geometry/SolidAngle.h"
 #include "radiometry/scene/Parallel.h"
@@ -277,7 +277,7 @@ void Widen(LightReach& to, double value, double peak, double flux)
 }
 
 /// Puts the sums of a receiver into the bounds.
-void Count(const Receiver& r, const Sums& sums, FirstLight& out)
+void Count(const Receiver& r, const Sums& sums, LightBounds& out)
 {
   for (int side = 0; side < 2; ++side)
   {
@@ -308,7 +308,7 @@ void Count(const Receiver& r, const Sums& sums, FirstLight& out)
   }
 }
 
-void Join(FirstLight& to, const FirstLight& from)
+void Join(LightBounds& to, const LightBounds& from)
 {
   const auto join = [](LightReach& a, const LightReach& b) { Widen(a, b.Value, b.Peak, b.Flux); };
   for (std::size_t k = 0; k < to.Kinds.size(); ++k)
@@ -473,7 +473,7 @@ PairBound BoundPair(const Light& light, const Triangle3& triangle, const LightVa
     .Light;
 }
 
-FirstLight BoundFirstLight(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells,
+LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells,
   bool backs, const LightVariants& variants)
 {
   const std::vector<Receiver> receivers = MakeReceivers(scene, points, cells, backs);
@@ -481,7 +481,7 @@ FirstLight BoundFirstLight(const Scene& scene, const std::vector<SurfacePoint>& 
   const bool many =
     static_cast<double>(receivers.size()) * static_cast<double>(sources.size()) > ManyPairs;
   const std::size_t chunks = (receivers.size() + ChunkSize - 1) / ChunkSize;
-  std::vector<FirstLight> parts(chunks);
+  std::vector<LightBounds> parts(chunks);
   ParallelFor(
     sources.empty() ? 0 : chunks, 0, {},
     [&](std::size_t c) {
@@ -508,8 +508,8 @@ FirstLight BoundFirstLight(const Scene& scene, const std::vector<SurfacePoint>& 
       }
     },
     1e-7 * static_cast<double>(sources.size() * (many ? 4 : ChunkSize)));
-  FirstLight out;
-  for (const FirstLight& part : parts)
+  LightBounds out;
+  for (const LightBounds& part : parts)
   {
     Join(out, part);
   }

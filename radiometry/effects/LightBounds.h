@@ -43,7 +43,7 @@ struct LightVariants
 ///     1 - s at the greatest angle, |k(r) r^2 - 1| at d or f (k r^2 grows with r), 1 - web >= 0
 ///   Many pairs  64 receivers together as a sphere, for lights farther than four radii
 ///   Cost        some 50 ns a receiver and light, on all threads; above 3e5 pairs some 1 ns
-struct FirstLight
+struct LightBounds
 {
   std::array<LightReach, 5> Kinds; // by LightType
   LightReach All;                  // of the sums
@@ -55,7 +55,7 @@ struct FirstLight
 };
 
 /// `points` are wanted, and averages over `cells`. `backs`: both sides of points receive.
-FirstLight BoundFirstLight(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells,
+LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells,
   bool backs, const LightVariants& variants = {});
 
 /// What a light gives a triangle: of a point-like or directional one, in front of it (Height > 0) or
