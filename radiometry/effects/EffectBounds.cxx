@@ -50,11 +50,20 @@ EffectBounds::EffectBounds(
 {
 }
 
-double EffectBounds::LeastValue() const
+double EffectBounds::LeastValue(const EffectPlan& plan) const
 {
-  return this->Whole.GlobalAmbient.empty()
+  const double ambient = this->Whole.GlobalAmbient.empty()
     ? 0.0
     : *std::min_element(this->Whole.GlobalAmbient.begin(), this->Whole.GlobalAmbient.end());
+  const bool open = !plan[Effect::Occlusion].Present && !this->Optics.TwoSided &&
+    plan[Effect::BackFaces].Wish != EffectSwitch::On;
+  const bool all = plan[Effect::PointLights].Wish != EffectSwitch::Off &&
+    plan[Effect::SpotLights].Wish != EffectSwitch::Off &&
+    plan[Effect::DirectionalLights].Wish != EffectSwitch::Off;
+  return ambient +
+    (open && all && this->Whole.ReceiverTriangles > 0
+        ? LeastLight(this->Whole, this->Points, this->Cells)
+        : 0.0);
 }
 
 namespace
@@ -306,7 +315,7 @@ double EffectBounds::Of(Effect effect, const EffectPlan& plan, bool indirect, do
       // All light is positive and only gets less by what stands in its way.
       const double open = indirect || o.Emitted > 0.0 ? Infinite : this->First(plan).All.Value;
       const double most =
-        computed >= 0.0 ? std::min(open, std::max(0.0, computed - this->LeastValue())) : open;
+        computed >= 0.0 ? std::min(open, computed) : open;
       // Without it no rays meet mirrors either: the change goes the one way or the other.
       return indirect && plan.LeavesOut(Effect::SpecularTransport)
         ? std::max(most, this->Of(Effect::SpecularTransport, plan, indirect))

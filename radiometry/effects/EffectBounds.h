@@ -67,8 +67,9 @@ public:
   int BouncesFor(double allowed, const EffectPlan& plan, int most = 1000);
 
   const OpticalLimits& Surfaces() const { return this->Optics; }
-  /// What all values are at least: global ambient light, which nothing hides (weakest band).
-  double LeastValue() const;
+  /// What all values are at least, weakest band: global ambient light, and where there is no Occlusion
+  /// the lights of Auto's plan that shine on all (LeastLight).
+  double LeastValue(const EffectPlan& plan) const;
 
 private:
   const LightBounds& First(const EffectPlan& plan);

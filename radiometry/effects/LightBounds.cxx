@@ -95,6 +95,7 @@ struct PairReach
   double SpotShape[2] = {}; // of Average and Peak
   double Attenuation[2] = {};
   double CandelaWebs[2] = {};
+  double Least = 0.0; // of the average, for unit intensity
 };
 
 /// A receiver: a triangle, or a point with its normal.
@@ -131,6 +132,7 @@ PairReach Directional(const Light& light, double intensity, const Receiver& r)
   out.Light.Height = -Dot(r.Normal, light.Direction);
   out.Light.Average = out.Light.Peak = intensity * std::fabs(out.Light.Height);
   out.Light.Strength = intensity;
+  out.Least = std::fabs(out.Light.Height);
   return out;
 }
 
@@ -182,6 +184,7 @@ PairReach PointLike(
   out.Light.Peak = intensity * s * anyPeak;
   out.Light.Average = std::min(intensity * s * anyAverage, out.Light.Peak);
   out.Light.Strength = h > 0.0 ? out.Light.Peak * (least / h) : 0.0;
+  out.Least = light.Web ? 0.0 : shape.Least * omega * std::min(1.0, low);
   const auto change = [&](double factor, double* to) {
     to[1] = intensity * factor * anyPeak;
     to[0] = std::min(intensity * factor * anyAverage, to[1]);
@@ -471,6 +474,35 @@ PairBound BoundPair(const Light& light, const Triangle3& triangle, const LightVa
   return (light.Type == LightType::Directional ? Directional(light, Brightest(light), r)
                                                : PointLike(light, Brightest(light), r, variants))
     .Light;
+}
+
+double LeastLight(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells)
+{
+  const std::vector<Receiver> receivers = MakeReceivers(scene, points, cells, false);
+  const std::vector<Source> sources = MakeSources(scene);
+  if (static_cast<double>(receivers.size()) * static_cast<double>(sources.size()) > ManyPairs)
+  {
+    return 0.0;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Receiver& r : receivers)
+  {
+    double sum = 0.0;
+    for (const Source& s : sources)
+    {
+      const Light& light = *s.From;
+      if (r.Wanted && light.Type != LightType::Area)
+      {
+        const PairReach pair = light.Type == LightType::Directional
+          ? Directional(light, s.Intensity, r)
+          : PointLike(light, s.Intensity, r, {});
+        const double weakest = *std::min_element(light.Intensity.begin(), light.Intensity.end());
+        sum += pair.Light.Height > 0.0 ? weakest * pair.Least : 0.0;
+      }
+    }
+    least = r.Wanted ? std::min(least, sum) : least;
+  }
+  return std::isfinite(least) ? (1.0 - 1e-9) * least : 0.0;
 }
 
 LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells,

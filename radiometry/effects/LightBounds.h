@@ -58,6 +58,11 @@ struct LightBounds
 LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells,
   bool backs, const LightVariants& variants = {});
 
+/// What the point, spot and directional lights of a scene give every wanted value at least, weakest
+/// band, where nothing stands between them and any receiver (fronts alone receive). Of point-like ones
+/// I s Omega/A with the least shape s and the least k r^2; 0 for more than 3e5 pairs.
+double LeastLight(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells);
+
 /// What a light gives a triangle: of a point-like or directional one, in front of it (Height > 0) or
 /// behind.
 struct PairBound

@@ -309,7 +309,8 @@ bool SceneEffects::Drop(Effect effect, double allowed)
 
 void SceneEffects::DropSmall(const EffectAbilities& abilities)
 {
-  const double allowed = this->Allowed(this->Limits.LeastValue());
+  const double allowed = this->Allowed(
+    this->RelativeTolerance > 0.0 ? this->Limits.LeastValue(this->Decided) : 0.0);
   if (!(allowed > 0.0))
   {
     return;
@@ -346,7 +347,7 @@ void SceneEffects::Bound(double computed)
   EffectDecision& panes = plan[Effect::Transmission];
   if (panes.Present && panes.Simulated)
   {
-    panes.Bound = this->Limits.OfTransmissionBeside(plan, this->FollowsLight(), this->Paths);
+    panes.Bound = this->Limits.OfTransmissionBeside(plan, this->Indirect, this->Paths);
   }
 }
 

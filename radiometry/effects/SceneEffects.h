@@ -33,8 +33,8 @@ struct EffectAbilities
 
 /// Decides, effect by effect, what a scene calls for, before anything is simulated; Auto also drops
 /// what cannot matter: present effects whose bounds stay, together, within a quarter of the tolerance
-/// of every value. That is AbsoluteTolerance, or RelativeTolerance of what nothing hides (global
-/// ambient light), if that is more. Cost: a pass over the optical arrays; the bounds are only looked
+/// of every value. That is AbsoluteTolerance, or RelativeTolerance of what every value is known to
+/// get (global ambient light, and lights that nothing can hide), if that is more. Cost: a pass over the optical arrays; the bounds are only looked
 /// at where something may be dropped or was left out.
 ///   PointLights, SpotLights, DirectionalLights, AreaLights, Environment
 ///                  lights of that kind are on; left out: they are off
