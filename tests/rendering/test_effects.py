@@ -386,6 +386,41 @@ def test_translucency_off_is_opaque():
     assert plan_of(glass.mapper)["Translucency"]["Decision"] == "not needed"
 
 
+def test_extended_lights_off():
+    """Area lights, skies and luminaires: what leaving them out changes, and their webs."""
+    from vtkradiometry import vtkAreaLightSource
+
+    area = vtkAreaLightSource()
+    area.SetPosition(0, 0, 1)
+    area.SetDirection(0, 0, -1)
+    area.Update()
+    web = lights(dict(POINT, PhotometricWeb=0, Intensity=(9, 9, 9)))
+    for name, values in (("", [1.0, 0.5, 0.0]), ("Horizontal", [0.0]), ("Vertical", [0.0, 5.0, 10.0])):
+        add(web.GetFieldData(), "PhotometricWeb0" + name, values)
+    for data, effect in ((area.GetOutput(), "AreaLights"), (lights({"LightType": 4}), "Environment"),
+                         (web, "CandelaWebs"), (web, "PointLights")):
+        w = stage(surface=square())
+        w.mapper.SetLightData(data)
+        lit = w.draw()
+        assert decisions(w)[effect] == "simulated"
+        w.mapper.SetEffectSwitch(effect, OFF)
+        off = w.draw()
+        row = plan_of(w.mapper)[effect]
+        most, beyond = differs(lit, off)
+        assert row["Decision"] == "left out" and 0 < row["Bound"] < np.inf
+        assert beyond <= row["Bound"] < 6 * most, (effect, most, row)
+        if effect == "CandelaWebs":
+            assert "Luminaire" not in w.mapper.GetShaderFeatures().split()
+            assert off[2, 2, 0] > lit[2, 2, 0]  # bright beyond the beam
+        else:
+            assert off[:, :, :3].max() == 0
+        w.mapper.SetEffectSwitch(effect, AUTO)
+        w.mapper.SetEffectTolerance(2 * row["Bound"])
+        if effect != "CandelaWebs":  # of a luminaire, the light goes before its web
+            assert decisions(w)[effect] == "dropped"
+            assert w.draw()[:, :, :3].max() == 0
+
+
 def test_known_shadows_off():
     surface = square()
     data = lights(SUN, dict(POINT, Intensity=(20, 20, 20)))
