@@ -2,7 +2,6 @@
 #include "PictureEffects.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -16,9 +15,7 @@ using radiometry::Effect;
 using radiometry::EffectDecision;
 using radiometry::EffectPlan;
 using radiometry::EffectSwitch;
-using radiometry::LightTerms;
 using radiometry::Rgb;
-using radiometry::Vec3;
 
 /// In this order effects are left out: what others depend on first.
 constexpr Effect Order[] = { Effect::AreaLights, Effect::Environment, Effect::DirectionalLights,
@@ -31,37 +28,9 @@ bool IsBlack(const Rgb& c)
   return c == Rgb();
 }
 
-/// The row that a light's being drawn at all stands in.
-Effect RowOf(LightKind kind)
-{
-  switch (kind)
-  {
-    case LightKind::Directional:
-      return Effect::DirectionalLights;
-    case LightKind::Spot:
-      return Effect::SpotLights;
-    case LightKind::Area:
-      return Effect::AreaLights;
-    case LightKind::Sky:
-      return Effect::Environment;
-    default:
-      return Effect::PointLights; // a luminaire is a point with a web
-  }
-}
-
-bool HasFallOff(LightKind kind)
-{
-  return kind == LightKind::Point || kind == LightKind::Spot || kind == LightKind::Luminaire;
-}
-
 bool IsLegacy(const DisplayLight& light)
 {
   return light.Attenuation[0] != 0.0 || light.Attenuation[1] != 0.0 || light.Attenuation[2] != 1.0;
-}
-
-double Greatest(const Rgb& c)
-{
-  return std::max({ std::abs(c.r), std::abs(c.g), std::abs(c.b) });
 }
 
 } // namespace
@@ -215,215 +184,8 @@ bool PictureEffects::NeedsBounds(double tolerance) const
 }
 
 //------------------------------------------------------------------------------
-// Leaving out
+// Bounds, and leaving out
 //------------------------------------------------------------------------------
-namespace
-{
-
-/// Whether a light is drawn at all, and as what: `plan` leaves out what `without` says.
-template <typename F>
-bool Keep(DisplayLight& light, const F& without)
-{
-  const LightKind kind = KindOf(light);
-  if (without(RowOf(kind)))
-  {
-    return false;
-  }
-  if (kind == LightKind::Spot && without(Effect::SpotShape))
-  {
-    light.CosCutoff = -1.0;
-    light.SpotExponent = 0.0;
-    light.SmoothEdge = false;
-  }
-  if (kind == LightKind::Luminaire && without(Effect::CandelaWebs))
-  {
-    light.Web = nullptr;
-  }
-  return true;
-}
-
-/// A picture from which one effect after the other is taken.
-class Reduction
-{
-public:
-  explicit Reduction(BoundedPicture&& picture)
-    : Picture(std::move(picture))
-  {
-  }
-
-  double BoundOf(Effect effect, const EffectPlan& plan) const
-  {
-    const BoundedPicture& p = this->Picture;
-    const MaterialPeaksOf peaks{ p };
-    const auto lights = [&](const auto& ofLight) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < p.Scene.Lights.size(); ++k)
-      {
-        sum += ofLight(p.Scene.Lights[k], k);
-      }
-      return sum;
-    };
-    const auto added = [&](const DisplayLight& light, const LightTerms& terms) {
-      return radiometry::LightBound(p.Scene.Model, light, p.Surface, terms);
-    };
-    const auto all = [&](const LightTerms& terms) {
-      return lights([&](const DisplayLight& light, std::size_t) { return added(light, terms); });
-    };
-    switch (effect)
-    {
-      case Effect::SpotShape:
-        return lights([&](const DisplayLight& light, std::size_t) {
-          return KindOf(light) == LightKind::Spot
-            ? radiometry::SpotShapeBound(p.Scene.Model, light, p.Surface)
-            : 0.0;
-        });
-      case Effect::CandelaWebs:
-        return lights([&](const DisplayLight& light, std::size_t) {
-          return KindOf(light) == LightKind::Luminaire ? added(light, {}) : 0.0;
-        });
-      case Effect::Attenuation:
-        return lights([&](const DisplayLight& light, std::size_t) {
-          return this->Falls(light)
-            ? radiometry::AttenuationBound(p.Scene.Model, light, p.Surface, p.Square)
-            : 0.0;
-        });
-      case Effect::Occlusion:
-        return lights([&](const DisplayLight& light, std::size_t k) {
-          return p.Loss[k] > 0.0 ? p.Loss[k] * added(light, { 0.0, 1.0, 1.0 }) : 0.0;
-        });
-      case Effect::Specular:
-        return all({ 0.0, 0.0, 1.0 });
-      case Effect::LocalViewer:
-        return !plan.Simulates(Effect::Specular)
-          ? 0.0
-          : lights([&](const DisplayLight& light, std::size_t) {
-              return radiometry::ViewerBound(
-                p.Scene.Model, light, p.Surface, p.Scene.Eye, p.Scene.Viewer);
-            });
-      case Effect::GlobalAmbient:
-        return all({ 1.0, 0.0, 0.0 }) + peaks.Ambient();
-      case Effect::Emission:
-        return Greatest(p.Emission);
-      case Effect::TwoSided:
-        // A light of the front is none of the back: of each, one picture has nothing. Area lights and
-        // skies may reach both; the difference of two values of one sign is within the greater.
-        return all({ p.AmbientOfSides, 1.0, 1.0 }) + p.AmbientOfSides * peaks.Ambient() +
-          p.EmissionOfSides + p.FieldOfSides;
-      case Effect::Translucency:
-        return std::numeric_limits<double>::infinity(); // what is behind is not known here
-      default:
-        return lights([&](const DisplayLight& light, std::size_t) {
-          return RowOf(KindOf(light)) == effect ? added(light, {}) : 0.0;
-        });
-    }
-  }
-
-  void TakeOut(Effect effect)
-  {
-    BoundedPicture& p = this->Picture;
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < p.Scene.Lights.size(); ++k)
-    {
-      if (Keep(p.Scene.Lights[k], [effect](Effect e) { return e == effect; }))
-      {
-        if (effect == Effect::Attenuation && this->Falls(p.Scene.Lights[k]))
-        {
-          p.Scene.Lights[k].Attenuation = { { 0.0, 0.0, p.Square } };
-        }
-        if (kept != k)
-        {
-          p.Scene.Lights[kept] = std::move(p.Scene.Lights[k]);
-          p.Loss[kept] = p.Loss[k];
-        }
-        ++kept;
-      }
-    }
-    p.Scene.Lights.resize(kept);
-    p.Loss.resize(kept);
-    if (effect == Effect::Specular)
-    {
-      p.Surface.Peaks.Specular = Rgb();
-    }
-    if (effect == Effect::GlobalAmbient)
-    {
-      p.Surface.Peaks.Ambient = Rgb();
-    }
-    if (effect == Effect::Emission)
-    {
-      p.EmissionOfSides = 0.0;
-    }
-  }
-
-private:
-  struct MaterialPeaksOf
-  {
-    const BoundedPicture& Picture;
-    double Ambient() const
-    {
-      return Greatest(this->Picture.Surface.Peaks.Ambient * this->Picture.Scene.Model.GlobalAmbient);
-    }
-  };
-  bool Falls(const DisplayLight& light) const
-  {
-    const auto& a = light.Attenuation;
-    return HasFallOff(KindOf(light)) &&
-      (a[0] != 0.0 || a[1] != 0.0 || a[2] != this->Picture.Square);
-  }
-
-  BoundedPicture Picture;
-};
-
-} // namespace
-
-std::vector<double> BoundedPicture::Key() const
-{
-  std::vector<double> key;
-  const auto add = [&key](std::initializer_list<double> values) {
-    key.insert(key.end(), values.begin(), values.end());
-  };
-  const auto vector = [&add](const Vec3& v) { add({ v.x, v.y, v.z }); };
-  const auto color = [&add](const Rgb& c) { add({ c.r, c.g, c.b }); };
-  add({ static_cast<double>(this->Scene.Model.Reflection), this->Square, this->EmissionOfSides,
-    this->FieldOfSides, this->AmbientOfSides });
-  color(this->Scene.Model.GlobalAmbient);
-  color(this->Emission);
-  vector(this->Scene.Eye);
-  vector(this->Scene.Viewer);
-  const radiometry::MaterialPeaks& peaks = this->Surface.Peaks;
-  color(peaks.Ambient);
-  color(peaks.Diffuse);
-  color(peaks.Specular);
-  add({ peaks.LeastShininess, peaks.GreatestShininess });
-  for (const radiometry::SurfaceBox& box : this->Surface.Boxes)
-  {
-    vector(box.Low);
-    vector(box.High);
-  }
-  for (std::size_t k = 0; k < this->Scene.Lights.size(); ++k)
-  {
-    const DisplayLight& light = this->Scene.Lights[k];
-    key.insert(key.end(), light.Position.begin(), light.Position.end());
-    key.insert(key.end(), light.Attenuation.begin(), light.Attenuation.end());
-    vector(light.SpotDirection);
-    color(light.Ambient);
-    color(light.Diffuse);
-    color(light.Specular);
-    add({ light.CosCutoff, light.SpotExponent, light.CosInnerCutoff, double(light.SmoothEdge),
-      double(light.Web != nullptr), double(light.PolygonTwoSided), this->Loss[k] });
-    for (const Vec3& corner : light.Polygon)
-    {
-      vector(corner);
-    }
-    if (light.Sky)
-    {
-      color(light.Sky->Constant);
-      std::for_each(light.Sky->Linear.begin(), light.Sky->Linear.end(), color);
-      std::for_each(light.Sky->Quadratic.begin(), light.Sky->Quadratic.end(), color);
-    }
-  }
-  return key;
-}
-
 void PictureEffects::Bound(BoundedPicture&& picture, double tolerance)
 {
   std::vector<double> key = picture.Key();
@@ -434,12 +196,12 @@ void PictureEffects::Bound(BoundedPicture&& picture, double tolerance)
   }
   this->BoundKey = std::move(key);
   auto plan = std::make_shared<EffectPlan>(*this->Undropped);
-  Reduction left(std::move(picture));
+  BoundedPicture left = std::move(picture);
   for (const Effect effect : Order)
   {
     if (plan->LeavesOut(effect))
     {
-      (*plan)[effect].Bound = left.BoundOf(effect, *plan);
+      (*plan)[effect].Bound = left.BoundOf(effect, plan->Simulates(Effect::Specular));
       left.TakeOut(effect);
     }
   }
@@ -448,7 +210,7 @@ void PictureEffects::Bound(BoundedPicture&& picture, double tolerance)
     const EffectDecision& d = (*plan)[effect];
     if (tolerance > 0.0 && d.Present && d.Simulated && d.Wish == EffectSwitch::Auto)
     {
-      if (plan->Drop(effect, left.BoundOf(effect, *plan), tolerance))
+      if (plan->Drop(effect, left.BoundOf(effect, plan->Simulates(Effect::Specular)), tolerance))
       {
         left.TakeOut(effect);
       }
@@ -459,22 +221,25 @@ void PictureEffects::Bound(BoundedPicture&& picture, double tolerance)
 
 bool PictureEffects::LeaveOut(CollectedLights& lights) const
 {
-  constexpr Effect ofLights[] = { Effect::DirectionalLights, Effect::PointLights,
-    Effect::SpotLights, Effect::AreaLights, Effect::Environment, Effect::SpotShape,
-    Effect::CandelaWebs, Effect::Attenuation };
-  const auto without = [this](Effect effect) { return this->LeavesOut(effect); };
-  if (std::none_of(std::begin(ofLights), std::end(ofLights), without))
+  EffectSet without;
+  for (const Effect effect : { Effect::DirectionalLights, Effect::PointLights, Effect::SpotLights,
+         Effect::AreaLights, Effect::Environment, Effect::SpotShape, Effect::CandelaWebs,
+         Effect::Attenuation })
+  {
+    without.set(static_cast<std::size_t>(effect), this->LeavesOut(effect));
+  }
+  if (without.none())
   {
     return false;
   }
   std::size_t kept = 0;
   for (std::size_t k = 0; k < lights.Lights.size(); ++k)
   {
-    if (!Keep(lights.Lights[k], without))
+    if (!KeepLight(lights.Lights[k], without))
     {
       continue;
     }
-    if (without(Effect::Attenuation) && HasFallOff(KindOf(lights.Lights[k])))
+    if (this->LeavesOut(Effect::Attenuation) && HasFallOff(KindOf(lights.Lights[k])))
     {
       lights.Lights[k].Attenuation = { { 0.0, 0.0, 1.0 } };
     }

@@ -2,11 +2,7 @@
 #ifndef PictureEffects_h
 #define PictureEffects_h
 
-#include "LightCollector.h"
-
-#include "radiometry/effects/EffectPlan.h"
-#include "radiometry/shading/EffectBounds.h"
-#include "radiometry/shading/ShadingBound.h"
+#include "PictureBounds.h"
 
 #include <array>
 #include <cstdint>
@@ -57,20 +53,6 @@ struct FrameFacts
 /// Notes what lights there are. Wishes are read: whatever only a light of a kind that is switched off
 /// has, the frame has not.
 void NoteLights(const CollectedLights& lights, double scale, FrameFacts& facts);
-
-/// What the bounds are computed from, in world coordinates.
-struct BoundedPicture
-{
-  radiometry::ShadedScene Scene;       // lights after scale; eye; viewer; model with all effects
-  radiometry::BoundedSurface Surface;
-  double Square = 1.0;                 // of 1/(Square r^2), r in units of the coordinates
-  std::vector<double> Loss;            // by light: greatest |1 - share|
-  radiometry::Rgb Emission;            // greatest of both sides
-  double EmissionOfSides = 0.0;        // greatest difference of the two sides'
-  double FieldOfSides = 0.0;           // of a field that is shown, or of normals
-  double AmbientOfSides = 0.0;         // 1: they may take ambient light differently
-  std::vector<double> Key() const;     // all numbers that bounds depend on
-};
 
 /// The effect plan of a picture: which effects it carries, which it leaves out, and what that changes.
 ///   Effects are decided one after the other. The bound of each is that of leaving it out of what is

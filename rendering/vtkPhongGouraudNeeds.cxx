@@ -202,10 +202,16 @@ int vtkPhongGouraudHelper::ChooseShading(const ShaderFeatures& needs, bool highl
     return shading;
   }
   // Highlights on a field and shares of light are drawn pixel by pixel; so are normals of cells and
-  // exponents that belong to a cell.
+  // exponents that belong to a cell. Where Gouraud was chosen that stays so when they are left out: it
+  // would change more than leaving them out does.
   const bool specular = Has(needs, "Specular");
-  if (highlights || Has(needs, "Visibility") ||
-    !this->HasPointNormals() || (Has(needs, "Materials") && specular))
+  const bool chosen = shading == vtkPhongGouraudMapper::GOURAUD;
+  const auto counts = [&](Effect effect, bool drawn) {
+    return drawn || (chosen && this->Effects.Plan()[effect].Present);
+  };
+  if (highlights || counts(Effect::Occlusion, Has(needs, "Visibility")) ||
+    !this->HasPointNormals() ||
+    (Has(needs, "Materials") && counts(Effect::Specular, specular)))
   {
     return vtkPhongGouraudMapper::PHONG;
   }

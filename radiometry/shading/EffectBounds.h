@@ -6,7 +6,7 @@
 #include <vector>
 
 /// What leaving an effect out of a picture can change of any of its colours, at most. What is proved
-/// here of single lights is summed up by rendering/PictureEffects.
+/// here of single lights is summed up by rendering/PictureBounds.
 ///
 ///   Model   LightingModel.h. A light adds to the colour
 ///             f s w v (k_a A + k_d D max(N.L, 0) + k_s S h)       (Physical: D and S over pi)
