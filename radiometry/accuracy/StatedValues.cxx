@@ -14,18 +14,30 @@ namespace radiometry
 namespace
 {
 
-/// Calls visit(index of the value, weight) for each value of an item that counts.
+/// Calls visit(index of the value, share) for each value of an item that counts; shares are those of
+/// the weights and add up to 1, so that means of any finite values are finite.
 template <class Visit>
 void ForEach(const StatedValues& values, Visit visit)
 {
   const auto bands = static_cast<std::size_t>(values.Bands);
+  double greatest = 0.0;
+  for (const double weight : values.Weights)
+  {
+    greatest = std::max(greatest, weight);
+  }
+  double total = 0.0;
+  for (const double weight : values.Weights)
+  {
+    total += weight > 0.0 ? weight / greatest : 0.0;
+  }
   for (std::size_t i = 0; i < values.Items(); ++i)
   {
     if (values.Weights[i] > 0.0)
     {
       for (std::size_t b = 0; b < bands; ++b)
       {
-        visit(i * bands + b, values.Weights[i]);
+        visit(
+          i * bands + b, values.Weights[i] / greatest / (total * static_cast<double>(bands)));
       }
     }
   }
@@ -39,7 +51,8 @@ double ErrorOf(const StatedValues& values, std::size_t i)
 /// Of an error to the mean value; below 0 where it cannot be said.
 double Ratio(double error, double mean)
 {
-  return mean > 0.0 ? error / mean : (error > 0.0 ? -1.0 : 0.0);
+  const double ratio = mean > 0.0 ? error / mean : 0.0;
+  return (error > 0.0 && !(mean > 0.0)) || !std::isfinite(ratio) ? -1.0 : ratio;
 }
 
 /// The middle one, of an even number the mean of the two; 0 where there is none.
@@ -94,20 +107,13 @@ RelativeDifference DifferencesFrom(const StatedValues& values, Other other)
 StatedError SummarizeErrors(const StatedValues& values)
 {
   StatedError found;
-  double weights = 0.0;
-  ForEach(values, [&](std::size_t i, double weight) {
+  ForEach(values, [&](std::size_t i, double share) {
     const double error = ErrorOf(values, i);
-    weights += weight;
-    found.MeanValue += weight * std::abs(values.Values[i]);
-    found.Absolute += weight * error;
+    found.MeanValue += share * std::abs(values.Values[i]);
+    found.Absolute += share * error;
     found.Greatest = std::max(found.Greatest, error);
     ++found.Values;
   });
-  if (weights > 0.0)
-  {
-    found.MeanValue /= weights;
-    found.Absolute /= weights;
-  }
   found.Relative = Ratio(found.Absolute, found.MeanValue);
   return found;
 }
@@ -117,25 +123,23 @@ Deviation Compare(const StatedValues& values, const StatedValues& reference)
   CheckAlike(values, reference);
   constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   Deviation found;
-  double weights = 0.0;
-  double squares = 0.0;
+  double root = 0.0; // of the mean square so far
   double mean = 0.0;
   std::size_t covered = 0;
   std::vector<double> ratios;
-  ForEach(values, [&](std::size_t i, double weight) {
+  ForEach(values, [&](std::size_t i, double share) {
     const double exact = reference.Values[i];
     const double error = ErrorOf(values, i);
     const double off = std::abs(values.Values[i] - exact);
     const double doubt = std::max(ErrorOf(reference, i), rounding * std::abs(exact));
-    weights += weight;
-    squares += weight * off * off;
-    mean += weight * std::abs(exact);
-    found.Absolute += weight * off;
+    root = std::hypot(root, std::sqrt(share) * off);
+    mean += share * std::abs(exact);
+    found.Absolute += share * off;
     found.Greatest = std::max(found.Greatest, off);
     covered += off <= std::hypot(error, doubt) ? 1 : 0;
     if (off > rounding * std::abs(exact))
     {
-      ratios.push_back(error / off);
+      ratios.push_back(std::min(error / off, std::numeric_limits<double>::max()));
     }
     ++found.Values;
   });
@@ -143,9 +147,8 @@ Deviation Compare(const StatedValues& values, const StatedValues& reference)
   {
     return found;
   }
-  found.Absolute /= weights;
   found.Coverage = static_cast<double>(covered) / static_cast<double>(found.Values);
-  found.Relative = Ratio(std::sqrt(squares / weights), mean / weights);
+  found.Relative = Ratio(root, mean);
   found.Sharpness = ratios.empty() ? -1.0 : Median(ratios);
   return found;
 }

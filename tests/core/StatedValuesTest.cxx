@@ -114,6 +114,18 @@ TEST(StatedValues, NothingAndDarkness)
   EXPECT_EQ(lit.Coverage, 0.0);
 }
 
+TEST(StatedValues, NumbersNearTheEndsOfTheRange)
+{
+  const StatedValues huge = Make({ 1e308, 1.5e308 }, { 1e307, 1e307 }, { 1e300, 1e300 });
+  EXPECT_DOUBLE_EQ(SummarizeErrors(huge).MeanValue, 1.25e308);
+  EXPECT_DOUBLE_EQ(SummarizeErrors(huge).Relative, 0.08);
+  const Deviation far = Compare(huge, Make({ 1.5e308, 1.5e308 }, {}, { 1e300, 1e300 }));
+  EXPECT_DOUBLE_EQ(far.Relative, 0.5e308 / std::sqrt(2.0) / 1.5e308);
+  const StatedValues tiny = Make({ 1e-320, 2e-320 }, { 0.0, 0.0 }, { 1e-300, 1e-300 });
+  EXPECT_EQ(Compare(tiny, tiny).Relative, 0.0);
+  EXPECT_EQ(Compare(huge, tiny).Relative, -1.0); // beyond the range
+}
+
 TEST(StatedValues, OfAnotherSize)
 {
   const StatedValues two = Make({ 1.0, 2.0 }, {}, { 1, 1 });
