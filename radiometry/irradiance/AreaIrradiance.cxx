@@ -5,118 +5,134 @@
 #include "radiometry/irradiance/AreaStage.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <iterator>
-#include <numeric>
+#include <utility>
 
 namespace radiometry
 {
 namespace
 {
 
-std::vector<double> Weights(const std::vector<Patch>& patches)
-{
-  std::vector<double> weights;
-  for (const Patch& p : patches)
-  {
-    weights.push_back(Area(p.Corners));
-  }
-  return weights;
-}
-std::vector<double> Weights(const std::vector<SurfacePoint>& points)
-{
-  return std::vector<double>(points.size(), 1.0);
-}
+/// Parts that a receiver (at points: a source) may be cut into, round by round.
+constexpr int Efforts[] = { 4, 64, 1024 };
+constexpr int AllRounds = 3;
 
-template <class Receivers>
-void Add(const Scene& scene, const OcclusionScene& occluders, const Receivers& receivers,
-  const DirectOptions& options, const StageProgress& stage, ConvergenceRecord* record,
-  DirectResult& result)
+/// Area sources on receivers, one by one.
+template <class Receiver>
+class Areas : public DirectKind
 {
-  const ConvergenceRecord clock;
-  const AreaSources sources(
-    scene, Compiled(Effect::Emission) && options.Emission, options.OnlyLight);
-  if (sources.Size() == 0 || receivers.empty())
+public:
+  Areas(const Scene& scene, const OcclusionScene& occluders,
+    const std::vector<Receiver>& receivers, const DirectOptions& options, DirectFields& fields,
+    std::unique_ptr<AreaSources> sources, bool noTime)
+    : DirectKind(1, receivers.size(), scene.Optics.Bands, options, fields, nullptr)
+    , Sources(std::move(sources))
+    , Receivers(receivers)
+    , Unshadowed(receivers.size(), 0.0f)
   {
-    return;
-  }
-  Report(stage.Listener, stage.Begin, stage.Name);
-  const AreaStage area(scene, occluders, sources, options.Occlusion, options.Transmission);
-  const std::vector<double> weights = Weights(receivers);
-  const auto bands = static_cast<std::size_t>(result.Bands);
-  const std::vector<double> before = result.Irradiance;
-  const std::vector<double> beforeError = result.Error;
-  std::vector<std::uint8_t> open(receivers.size(), 1);
-  std::vector<double> unshadowed(receivers.size(), 0.0);
-  std::atomic<std::int64_t> rays{ 0 };
-  std::atomic<bool> expired{ false };
-  const std::int64_t raysBefore = result.Rays;
-
-  const auto compute = [&](std::size_t i, int work, bool hasty) {
-    AreaEffort effort;
-    effort.RelativeTolerance = options.RelativeTolerance;
-    effort.AbsoluteTolerance = options.AbsoluteTolerance;
-    effort.Work = work;
-    effort.Hasty = hasty;
-    const AreaLight light = area.At(receivers[i], options.NumberOf(i), before.data() + i * bands, effort);
-    for (std::size_t b = 0; b < bands; ++b)
+    this->NoTime = noTime;
+    if (!noTime)
     {
-      result.Irradiance[i * bands + b] = before[i * bands + b] + light.Value[b];
-      result.Error[i * bands + b] = std::hypot(beforeError[i * bands + b], light.Error[b]);
-      unshadowed[i] = std::max(unshadowed[i], light.Unshadowed[b]);
+      this->Stage = std::make_unique<AreaStage>(
+        scene, occluders, *this->Sources, options.Occlusion, options.Transmission);
     }
-    rays += light.Rays;
-    open[i] = light.Open ? 1 : 0;
-  };
-
-  // Rounds of growing effort on what is not yet good enough.
-  constexpr int efforts[] = { 4, 64, 1024 };
-  constexpr int rounds = static_cast<int>(std::size(efforts));
-  std::vector<std::size_t> todo(receivers.size());
-  std::iota(todo.begin(), todo.end(), std::size_t{ 0 });
-  for (int round = 0; round < rounds && !todo.empty() && !expired; ++round)
-  {
-    StageProgress part = stage;
-    part.Begin = stage.Begin + round * (stage.End - stage.Begin) / rounds;
-    part.End = stage.Begin + (round + 1) * (stage.End - stage.Begin) / rounds;
-    ParallelFor(
-      todo.size(), options.Threads, part,
-      [&](std::size_t k) {
-        if (options.SecondsLeft > 0.0 && clock.Elapsed() > options.SecondsLeft)
-        {
-          expired = true;
-        }
-        if (round == 0 || !expired)
-        {
-          compute(todo[k], efforts[round], expired);
-        }
-      },
-      1e-4);
-    todo.erase(
-      std::remove_if(todo.begin(), todo.end(), [&](std::size_t i) { return open[i] == 0; }),
-      todo.end());
-    result.Rays = raysBefore + rays;
-    RecordDirect(record, result, weights, "area lights");
+    this->Own().Dropped.resize(receivers.size(), 0.0f);
+    this->Own().Spent.resize(receivers.size(), 0);
   }
-  result.TimedOut = result.TimedOut || expired;
-  result.PeakUnshadowed += *std::max_element(unshadowed.begin(), unshadowed.end());
+
+  const char* Name() const override { return "area lights"; }
+
+protected:
+  int Rounds(bool) const override { return AllRounds; }
+  double Guess(int, bool) const override { return 1e-4; }
+  bool Work(std::size_t i, int round, Haste haste) override
+  {
+    DirectField& own = this->Own();
+    // One that is gone on with begins where it stopped.
+    const int done = own.Spent[i] - 1;
+    const int at = std::min(std::max(round, done), AllRounds - 1);
+    const std::size_t first = i * this->Bands;
+    static thread_local std::vector<double> before;
+    before.resize(this->Bands);
+    double least = 1e300;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      before[b] = this->Before(i, b);
+      least = std::min(least, before[b]);
+    }
+    AreaEffort effort;
+    effort.RelativeTolerance = this->Options.RelativeTolerance;
+    effort.AbsoluteTolerance = this->Options.AbsoluteTolerance;
+    effort.Work = Efforts[at];
+    effort.Dropped = this->DroppedBefore(i);
+    effort.Drop = this->Options.DropAreas;
+    const bool blind = haste == Haste::Blind || !this->Stage;
+    const AreaLight light = blind
+      ? BoundArea(*this->Sources, this->Receivers[i])
+      : this->Stage->At(this->Receivers[i], this->Options.NumberOf(i), before.data(), effort);
+    std::copy_n(light.Value.begin(), this->Bands, &own.Value[first]);
+    std::copy_n(light.Error.begin(), this->Bands, &own.Error[first]);
+    own.Dropped[i] = static_cast<float>(light.Dropped);
+    own.Spent[i] = blind ? 0 : at + 1;
+    this->Unshadowed[i] = static_cast<float>(
+      *std::max_element(light.Unshadowed.begin(), light.Unshadowed.end()) * (1.0 + 1e-7));
+    this->RayCount += light.Rays;
+    // What is as far as it can be is not gone on with.
+    const bool last = at + 1 == AllRounds;
+    own.State[i] = static_cast<std::uint8_t>(DirectField::Computed |
+      (light.Improvable && !(light.Open && last) ? DirectField::Improvable : 0) |
+      (blind || (light.Open && !last) ? DirectField::Unfinished : 0));
+    return blind || (light.Open && !last);
+  }
+  void Between(int, const std::vector<std::uint32_t>& items, std::vector<std::uint8_t>&) override
+  {
+    for (const std::uint32_t i : items)
+    {
+      this->Own().Peak = std::max(this->Own().Peak, static_cast<double>(this->Unshadowed[i]));
+    }
+  }
+
+private:
+  std::unique_ptr<AreaSources> Sources;
+  std::unique_ptr<AreaStage> Stage; // null: there is no time
+  const std::vector<Receiver>& Receivers;
+  std::vector<float> Unshadowed;
+};
+
+template <class Receiver>
+std::unique_ptr<DirectKind> Make(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Receiver>& receivers, const DirectOptions& options, DirectFields& fields,
+  double seconds)
+{
+  auto sources = std::make_unique<AreaSources>(
+    scene, Compiled(Effect::Emission) && options.Emission, options.OnlyLight);
+  if (sources->Size() == 0)
+  {
+    return nullptr;
+  }
+  // A tree of its own, with neighbours, over the triangles that block.
+  constexpr double blockers = 2.5e-6; // seconds a triangle
+  const bool noTime = seconds > 0.0 && options.Occlusion &&
+    blockers * static_cast<double>(scene.Triangles.size()) +
+        occluders.BuildingSeconds(options.Threads) > seconds;
+  return std::make_unique<Areas<Receiver>>(
+    scene, occluders, receivers, options, fields, std::move(sources), noTime);
 }
 
 } // namespace
 
-void AddAreaIrradiance(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage,
-  ConvergenceRecord* record, DirectResult& result)
+std::unique_ptr<DirectKind> MakeAreas(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Patch>& patches, const DirectOptions& options, DirectFields& fields,
+  double seconds)
 {
-  Add(scene, occluders, patches, options, stage, record, result);
+  return Make(scene, occluders, patches, options, fields, seconds);
 }
 
-void AddAreaIrradiance(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<SurfacePoint>& points, const DirectOptions& options,
-  const StageProgress& stage, ConvergenceRecord* record, DirectResult& result)
+std::unique_ptr<DirectKind> MakeAreas(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<SurfacePoint>& points, const DirectOptions& options, DirectFields& fields,
+  double seconds)
 {
-  Add(scene, occluders, points, options, stage, record, result);
+  return Make(scene, occluders, points, options, fields, seconds);
 }
 
 } // namespace radiometry

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "radiometry/irradiance/DirectIrradiance.h"
+#include "radiometry/irradiance/DirectKind.h"
+
+#include <memory>
 
 namespace radiometry
 {
 
-/// Adds the light of area lights and, with DirectOptions::Emission, of emitting surfaces, averaged over each patch.
-void AddAreaIrradiance(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage,
-  ConvergenceRecord* record, DirectResult& result);
+/// The light of area lights and, with DirectOptions::Emission, of emitting surfaces, averaged over
+/// each patch (AreaReceiver). Null: there are none.
+std::unique_ptr<DirectKind> MakeAreas(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Patch>& patches, const DirectOptions& options, DirectFields& fields,
+  double seconds);
 
 /// The same at points, about their normals.
-void AddAreaIrradiance(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<SurfacePoint>& points, const DirectOptions& options,
-  const StageProgress& stage, ConvergenceRecord* record, DirectResult& result);
+std::unique_ptr<DirectKind> MakeAreas(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<SurfacePoint>& points, const DirectOptions& options, DirectFields& fields,
+  double seconds);
 
 } // namespace radiometry

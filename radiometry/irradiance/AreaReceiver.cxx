@@ -38,7 +38,46 @@ ConvexPolygon Before(const ConvexPolygon& polygon, const Vec3& n, const Vec3& th
   return part;
 }
 
+/// Half of what all sources together can give, with an error of half.
+AreaLight Bound(
+  const AreaSources& sources, const Vec3& center, const Vec3& normal, double radius)
+{
+  AreaLight light;
+  const auto bands = static_cast<std::size_t>(sources.Bands());
+  light.Value.assign(bands, 0.0);
+  if (!sources.Groups().empty())
+  {
+    const AreaSources::Group& all = sources.Groups().front();
+    const double factor = AreaSources::Factor(all, center, normal, radius);
+    for (std::size_t b = 0; b < bands && factor > 0.0; ++b)
+    {
+      light.Value[b] =
+        0.5 * std::min(all.Exitances[b], all.Power[b] > 0.0 ? all.Power[b] * factor : 0.0);
+    }
+  }
+  light.Error = light.Value;
+  light.Unshadowed = light.Value;
+  for (double& value : light.Unshadowed)
+  {
+    value *= 2.0;
+  }
+  light.Open = light.Improvable = true;
+  return light;
+}
+
 } // namespace
+
+AreaLight BoundArea(const AreaSources& sources, const Patch& patch)
+{
+  const ExchangePatch shape(patch.Corners);
+  return shape.Area > 0.0 ? Bound(sources, shape.Center, shape.Normal, shape.Radius)
+                          : AreaSums(static_cast<std::size_t>(sources.Bands())).Result(0.0);
+}
+
+AreaLight BoundArea(const AreaSources& sources, const SurfacePoint& point)
+{
+  return Bound(sources, point.Point, point.Normal, 0.0);
+}
 
 /// A part of a patch and a source: the light between them.
 struct AreaReceiver::Part
@@ -196,12 +235,7 @@ AreaLight AreaReceiver::AtPatch(const Patch& patch, std::uint64_t key, const dou
       }
       sums.Add(sources[s].Exitance, 1.0, 0.0, 0.0, 0.0, part.Whole / shape.Area);
       part.Value = part.Whole;
-      if (this->View.GetBlockers() && effort.Hasty)
-      {
-        part.Value = 0.5 * part.Whole;
-        part.Rule += part.Whole; // weighted by the share of one half
-      }
-      else if (this->View.GetBlockers())
+      if (this->View.GetBlockers())
       {
         this->Evaluate(patch, key, part, rays);
       }
@@ -256,7 +290,8 @@ AreaLight AreaReceiver::AtPatch(const Patch& patch, std::uint64_t key, const dou
   }
   AreaLight light = sums.Result(Epsilon * (16.0 + this->Scale / size));
   light.Rays = rays;
-  light.Open = effort.Hasty || (!met && !open.empty());
+  light.Open = !met && !open.empty();
+  light.Improvable = !open.empty() || light.Dropped > 0.0;
   return light;
 }
 
@@ -289,12 +324,7 @@ AreaLight AreaReceiver::AtPoint(const SurfacePoint& point, const std::vector<Vie
       error += PointToPolygonRounding(point.Point, piece.P, piece.N);
     }
     double variance = 0.0;
-    if (this->View.GetBlockers() && effort.Hasty)
-    {
-      share = 0.5;
-      error = 0.5 * whole;
-    }
-    else if (this->View.GetBlockers())
+    if (this->View.GetBlockers())
     {
       double all = 0.0, visible = 0.0, spread = 0.0, low = 1.0, high = 0.0;
       for (std::size_t p = 0; p < places.size(); ++p)
@@ -321,7 +351,8 @@ AreaLight AreaReceiver::AtPoint(const SurfacePoint& point, const std::vector<Vie
   });
   AreaLight light = sums.Result(16.0 * Epsilon);
   light.Rays = rays;
-  light.Open = effort.Hasty || (sampled && !sums.Met(before, effort));
+  light.Open = sampled && !sums.Met(before, effort);
+  light.Improvable = sampled || light.Dropped > 0.0;
   return light;
 }
 

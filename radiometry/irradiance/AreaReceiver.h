@@ -17,7 +17,9 @@ struct AreaLight
   std::vector<double> Error;
   std::vector<double> Unshadowed; // bound of Value, were nothing in the way
   std::int64_t Rays = 0;
-  bool Open = false; // the tolerance is not met; more work would help
+  double Dropped = 0.0; // of the error: the bound on sources left out, of any band
+  bool Open = false;    // the tolerance is not met; more work would help
+  bool Improvable = false; // a finer tolerance would make the error smaller
 };
 
 /// How well a receiver's light has to be known.
@@ -26,8 +28,13 @@ struct AreaEffort
   double RelativeTolerance = 0.01;
   double AbsoluteTolerance = 0.0; // W/m^2
   int Work = 64;                  // parts that receivers (for points: sources) may be cut into
-  bool Hasty = false;             // no time to look for shadows: half of the light, give or take half
+  double Dropped = 0.0; // W/m^2: what was left out before; all together a quarter of the tolerance
+  bool Drop = true;     // sources may be left out
 };
+
+/// What there is no time to look at: half of the bound of all sources together, give or take half.
+AreaLight BoundArea(const AreaSources& sources, const Patch& patch);
+AreaLight BoundArea(const AreaSources& sources, const SurfacePoint& point);
 
 /// Sums the area sources that matter to one receiver: the source or group of the greatest bound
 /// first, until the bounds of all others together are small beside the tolerance.

@@ -98,7 +98,9 @@ AreaLight AreaStage::Gather(const Ask& ask) const
       }
     }
     light.Rays += other.Rays;
+    light.Dropped = std::max(light.Dropped, other.Dropped);
     light.Open = light.Open || other.Open;
+    light.Improvable = light.Improvable || other.Improvable;
   }
   return light;
 }

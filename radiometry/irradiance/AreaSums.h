@@ -15,6 +15,8 @@ namespace radiometry
 inline constexpr double AreaDeviations = 2.5;
 /// Of the tolerance: what the sources left out may have.
 inline constexpr double AreaDroppedShare = 0.1;
+/// ... and all that is left out of a value.
+inline constexpr double AllDroppedShare = 0.25;
 /// A value below this share of the unshadowed one is not resolved any finer.
 inline constexpr double AreaDarkestShare = 0.001;
 
@@ -78,8 +80,12 @@ struct AreaSums
     for (std::size_t b = 0; b < this->Value.size(); ++b)
     {
       const double value = before[b] + std::max(0.0, this->Value[b]);
-      if (this->Rest[b] >
-        AreaDroppedShare * std::max(effort.RelativeTolerance * value, effort.AbsoluteTolerance))
+      const double allowed =
+        std::max(effort.RelativeTolerance * value, effort.AbsoluteTolerance);
+      if (this->Rest[b] > 0.0 &&
+        (!effort.Drop ||
+          this->Rest[b] >
+            std::min(AreaDroppedShare * allowed, AllDroppedShare * allowed - effort.Dropped)))
       {
         return false;
       }
@@ -97,6 +103,7 @@ struct AreaSums
       light.Value[b] = std::max(0.0, this->Value[b]);
       light.Error[b] = this->Error(b) + this->Rest[b] + rounding * light.Value[b];
       light.Unshadowed[b] += this->Rest[b];
+      light.Dropped = std::max(light.Dropped, this->Rest[b]);
     }
     return light;
   }

@@ -2,13 +2,12 @@
 #include "radiometry/irradiance/BeamIrradiance.h"
 
 #include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/BeamLights.h"
 #include "radiometry/irradiance/PatchBlock.h"
-#include "radiometry/irradiance/PatchClusters.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
-#include <numeric>
+#include <memory>
 #include <tbb/enumerable_thread_specific.h>
 
 namespace radiometry
@@ -24,8 +23,8 @@ struct Round
 };
 constexpr std::size_t AllLights = std::numeric_limits<std::size_t>::max();
 
-/// Rounds of growing effort on what is not yet good enough; with a time budget the first ones ask
-/// few of many lights.
+/// Rounds of growing effort on what is not yet good enough; in haste the first ones ask few of many
+/// lights.
 std::vector<Round> PlanRounds(std::size_t lights, bool hurried)
 {
   std::vector<Round> rounds;
@@ -40,91 +39,52 @@ std::vector<Round> PlanRounds(std::size_t lights, bool hurried)
   return rounds;
 }
 
-/// The patches' share of a run, round by round.
-class BeamRun
+/// Beams on patches, cluster by cluster.
+class PatchBeams : public DirectKind
 {
 public:
-  BeamRun(const Scene& scene, const OcclusionScene& occluders, const std::vector<Patch>& patches,
-    const DirectOptions& options, const BeamLights& lights, DirectResult& result)
-    : Patches(patches)
-    , Options(options)
-    , Lights(lights)
-    , Result(result)
-    , Bands(static_cast<std::size_t>(result.Bands))
-    , Areas(patches.size())
-    , Clusters(scene, occluders, patches, options.Threads)
-    , Peaks(this->Clusters.Size(), 0.0)
-    , Dropped(lights.Size() > 1 ? patches.size() : 0, 0.0f)
-    , Open(patches.size(), 1)
-    , Blocks([&, extent = Extent(scene)] {
-      return std::make_unique<Worker>(scene, lights, patches, options, extent);
+  PatchBeams(const Scene& scene, const std::vector<Patch>& patches, const DirectOptions& options,
+    std::unique_ptr<BeamLights> lights, bool noTime, DirectFields& fields,
+    const ReceiverGroups& groups)
+    : DirectKind(0, patches.size(), scene.Optics.Bands, options, fields, &groups)
+    , Lights(std::move(lights))
+    , Peaks(groups.Size(), 0.0)
+    , Blocks([this, &scene, &patches, &options, extent = Extent(scene)] {
+      return std::make_unique<Worker>(scene, *this->Lights, patches, options, extent);
     })
   {
-    this->Todo.resize(this->Clusters.Size());
-    std::iota(this->Todo.begin(), this->Todo.end(), 0u);
-    if (options.SecondsLeft > 0.0)
+    this->NoTime = noTime;
+    if (this->Lights->Size() > 1 && this->Own().Dropped.empty())
     {
-      // Spread over the scene, so that what is done in time is a picture of all of it.
-      std::stable_sort(this->Todo.begin(), this->Todo.end(), [](std::uint32_t a, std::uint32_t b) {
-        return Hash64(a) < Hash64(b);
-      });
+      this->Own().Dropped.assign(patches.size(), 0.0f);
     }
   }
 
-  void Run(const StageProgress& stage, ConvergenceRecord* record)
+  const char* Name() const override { return "direct light"; }
+
+protected:
+  int Rounds(bool hurried) const override
   {
-    const std::vector<Round> rounds =
-      PlanRounds(this->Lights.Size(), this->Options.SecondsLeft > 0.0);
-    const std::int64_t before = this->Result.Rays;
-    const double span = stage.End - stage.Begin;
-    for (std::size_t r = 0; r < rounds.size() && !this->Todo.empty() && !this->Expired; ++r)
+    return static_cast<int>(PlanRounds(this->Lights->Size(), hurried).size());
+  }
+  double Guess(int round, bool hurried) const override
+  {
+    const Round r = PlanRounds(this->Lights->Size(), hurried)[static_cast<std::size_t>(round)];
+    return 1e-5 * static_cast<double>(std::min(r.Lights, this->Lights->Size()));
+  }
+  bool Work(std::size_t item, int round, Haste haste) override
+  {
+    const Round r =
+      PlanRounds(this->Lights->Size(), haste == Haste::Some)[static_cast<std::size_t>(round)];
+    return this->Compute(item, this->Groups->Begin(item), this->Groups->End(item), r, round == 0,
+      haste == Haste::Blind);
+  }
+  void Between(int, const std::vector<std::uint32_t>& items, std::vector<std::uint8_t>&) override
+  {
+    for (const std::uint32_t item : items)
     {
-      StageProgress part = stage;
-      part.Begin = stage.Begin + span * static_cast<double>(r) / static_cast<double>(rounds.size());
-      part.End =
-        stage.Begin + span * static_cast<double>(r + 1) / static_cast<double>(rounds.size());
-      std::vector<std::uint8_t> open(this->Todo.size(), 0);
-      ParallelFor(
-        this->Todo.size(), this->Options.Threads, part,
-        [&](std::size_t k) {
-          if (this->Options.SecondsLeft > 0.0 && this->Clock.Elapsed() > this->Options.SecondsLeft)
-          {
-            this->Expired = true;
-          }
-          if (r == 0 || !this->Expired)
-          {
-            open[k] = this->Compute(this->Todo[k], rounds[r], r == 0) ? 1 : 0;
-          }
-        },
-        1e-5 * static_cast<double>(std::min(rounds[r].Lights, this->Lights.Size())));
-      std::size_t kept = 0;
-      for (std::size_t k = 0; k < this->Todo.size(); ++k)
-      {
-        this->Todo[kept] = this->Todo[k];
-        kept += open[k];
-      }
-      this->Todo.resize(kept);
-      this->Result.Rays = before + this->Rays;
-      RecordDirect(record, this->Result, this->Areas, "direct light");
+      this->Own().Peak = std::max(this->Own().Peak, this->Peaks[item]);
     }
-    this->Result.TimedOut = this->Result.TimedOut || this->Expired;
-    if (!this->Peaks.empty())
-    {
-      this->Result.PeakUnshadowed += *std::max_element(this->Peaks.begin(), this->Peaks.end());
-    }
-    double dropped = 0.0;
-    double most = 0.0;
-    for (const float d : this->Dropped)
-    {
-      dropped += d;
-      most = std::max(most, static_cast<double>(d));
-    }
-    if (most > 0.0)
-    {
-      this->Result.Dropped = std::move(this->Dropped);
-    }
-    this->Result.DroppedPeak += most;
-    this->Result.DroppedMean += dropped / static_cast<double>(this->Patches.size());
   }
 
 private:
@@ -141,13 +101,6 @@ private:
     std::vector<std::uint8_t> Active;
   };
 
-  /// Returns true when some patch of the cluster is not yet good enough.
-  bool Compute(std::size_t cluster, const Round& round, bool first)
-  {
-    return this->Compute(
-      cluster, this->Clusters.Begin(cluster), this->Clusters.End(cluster), round, first);
-  }
-
   /// True when the patches are so far apart that they differ much in which of many lights matter to
   /// them. Small clusters cost more for each light, so they must be much wider than their distance to
   /// the lights, and the smallest hold patches that are so themselves.
@@ -156,18 +109,19 @@ private:
     constexpr std::size_t many = 32;
     constexpr std::size_t few = 16;
     constexpr std::size_t least = 4;
-    if (this->Lights.Size() <= many || count <= least)
+    if (this->Lights->Size() <= many || count <= least)
     {
       return false;
     }
-    const double nearest = this->Lights.Tree.Nearest(box.Center());
+    const double nearest = this->Lights->Tree.Nearest(box.Center());
     const double width = Length(box.Size());
     return count > few ? width > 2.0 * nearest
                        : width > 2.0 * nearest * std::sqrt(static_cast<double>(count));
   }
 
+  /// Returns true when some patch of the cluster is not yet good enough.
   bool Compute(std::size_t cluster, const std::uint32_t* ids, const std::uint32_t* end,
-    const Round& round, bool first)
+    const Round& round, bool first, bool blind)
   {
     Worker& worker = *this->Blocks.local();
     PatchBlock& block = worker.Block;
@@ -175,107 +129,128 @@ private:
     if (this->TooWide(block.Bounds().Box, block.Size()))
     {
       const std::uint32_t* middle = ids + (end - ids) / 2;
-      const bool before = this->Compute(cluster, ids, middle, round, first);
-      return this->Compute(cluster, middle, end, round, first) || before;
+      const bool before = this->Compute(cluster, ids, middle, round, first, blind);
+      return this->Compute(cluster, middle, end, round, first, blind) || before;
     }
+    DirectField& own = this->Own();
     block.Work = round.Work;
+    block.Blind = blind;
     worker.Active.assign(block.Size(), 0);
     for (std::size_t i = 0; i < block.Size(); ++i)
     {
-      this->Areas[ids[i]] = block.PatchArea(i);
-      worker.Active[i] = block.PatchArea(i) > 0.0 && this->Open[ids[i]] != 0 ? 1 : 0;
+      const bool wanted = blind ? this->Fresh(ids[i])
+                                : (first ? this->Waits(ids[i])
+                                         : (own.State[ids[i]] & DirectField::Unfinished) != 0);
+      worker.Active[i] = wanted && block.PatchArea(i) > 0.0 ? 1 : 0;
+      if (wanted && !(block.PatchArea(i) > 0.0))
+      {
+        own.State[ids[i]] = DirectField::Computed; // nothing arrives where there is no area
+      }
       // What was too much by so much before must be smaller by that, and a little more, now.
-      block.Factor[i] =
-        first ? 1.0 : 0.7 / std::clamp(this->Excess(ids[i]), 1.0, 1e3);
+      block.Factor[i] = first ? 1.0 : 0.7 / std::clamp(this->Excess(ids[i]), 1.0, 1e3);
     }
-    block.Blind = first && this->Expired;
     LightEffort effort;
     effort.FirstLook = std::min<std::size_t>(32, round.Lights);
-    effort.Lights = block.Blind ? std::min<std::size_t>(4, round.Lights) : round.Lights;
+    effort.Lights = blind ? std::min<std::size_t>(4, round.Lights) : round.Lights;
     effort.RelativeTolerance = this->Options.RelativeTolerance;
     effort.AbsoluteTolerance = this->Options.AbsoluteTolerance;
+    effort.Dropped = this->Options.Dropped;
     LightSum& sum = worker.Sum;
-    this->Rays += sum.Compute(block, block.Bounds(), block.Size(), worker.Active.data(), effort,
-      Hash64(this->Options.NumberOf(ids[0]), round.Lights));
+    this->RayCount += sum.Compute(block, block.Bounds(), block.Size(), worker.Active.data(),
+      effort, Hash64(this->Options.NumberOf(ids[0]), round.Lights));
     bool open = false;
     for (std::size_t i = 0; i < block.Size(); ++i)
     {
-      this->Open[ids[i]] = 0;
-      if (worker.Active[i] == 0)
+      if (worker.Active[i] != 0)
       {
-        continue;
-      }
-      const std::size_t at = ids[i] * this->Bands;
-      std::copy_n(&sum.Value[i * this->Bands], this->Bands, &this->Result.Irradiance[at]);
-      std::copy_n(&sum.Error[i * this->Bands], this->Bands, &this->Result.Error[at]);
-      if (!this->Dropped.empty())
-      {
-        this->Dropped[ids[i]] = static_cast<float>(sum.Dropped[i]);
-      }
-      // An error that is rounding only cannot be made smaller.
-      if (sum.Uncertain[i] != 0 && this->Excess(ids[i]) > 1.0)
-      {
-        this->Open[ids[i]] = 1;
-        open = true;
+        open = this->Take(ids[i], i, sum, blind) || open;
       }
     }
     this->Peaks[cluster] = std::max(this->Peaks[cluster], sum.PeakUnshadowed);
     return open;
   }
 
+  /// Takes the result of a patch over; true when it is not good enough and can be better.
+  bool Take(std::uint32_t patch, std::size_t i, const LightSum& sum, bool blind)
+  {
+    DirectField& own = this->Own();
+    const std::size_t at = patch * this->Bands;
+    std::copy_n(&sum.Value[i * this->Bands], this->Bands, &own.Value[at]);
+    std::copy_n(&sum.Error[i * this->Bands], this->Bands, &own.Error[at]);
+    if (!own.Dropped.empty())
+    {
+      own.Dropped[patch] = static_cast<float>(sum.Dropped[i]);
+    }
+    // An error that is rounding only cannot be made smaller.
+    const bool open = blind || (sum.Uncertain[i] != 0 && this->Excess(patch) > 1.0);
+    own.State[patch] = static_cast<std::uint8_t>(DirectField::Computed |
+      (sum.Uncertain[i] != 0 || sum.Dropped[i] > 0.0 ? DirectField::Improvable : 0) |
+      (open ? DirectField::Unfinished : 0));
+    return open;
+  }
+
   /// The greatest ratio of a patch's error to what is allowed.
-  double Excess(std::uint32_t patch) const
+  double Excess(std::uint32_t patch)
   {
     double excess = 0.0;
-    for (std::size_t b = 0; b < this->Bands; ++b)
+    for (std::size_t at = patch * this->Bands; at < (patch + 1) * this->Bands; ++at)
     {
-      const double error = this->Result.Error[patch * this->Bands + b];
+      const double error = this->Own().Error[at];
       const double allowed = std::max(this->Options.AbsoluteTolerance,
-        this->Options.RelativeTolerance * this->Result.Irradiance[patch * this->Bands + b]);
+        this->Options.RelativeTolerance * this->Own().Value[at]);
       excess = std::max(excess, error > 0.0 ? (allowed > 0.0 ? error / allowed : 1e300) : 0.0);
     }
     return excess;
   }
 
-  const std::vector<Patch>& Patches;
-  const DirectOptions& Options;
-  const BeamLights& Lights;
-  DirectResult& Result;
-  std::size_t Bands;
-  std::vector<double> Areas;
-  PatchClusters Clusters;
-  std::vector<double> Peaks;    // of each cluster, nothing in the way
-  std::vector<float> Dropped;   // of each patch: the bound on lights left out
-  std::vector<std::uint8_t> Open; // of each patch: not yet good enough
-  std::vector<std::uint32_t> Todo; // clusters
+  std::unique_ptr<BeamLights> Lights;
+  std::vector<double> Peaks; // of each cluster, nothing in the way
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> Blocks;
-  std::atomic<std::int64_t> Rays{ 0 };
-  std::atomic<bool> Expired{ false };
-  const ConvergenceRecord Clock;
 };
+
+/// Whether some light reaches some group at all.
+bool Reach(const Scene& scene, const BeamLights& lights, const std::vector<Patch>& patches,
+  const ReceiverGroups& groups)
+{
+  const double extent = Extent(scene);
+  PatchBlock block(scene, lights, patches, DirectOptions(), extent);
+  for (std::size_t g = 0; g < groups.Size(); ++g)
+  {
+    block.Load(groups.Begin(g), groups.End(g));
+    for (const std::int32_t root : lights.Tree.Roots())
+    {
+      if (lights.Tree.Gain(root, block.Bounds()) > 0.0)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
 
 } // namespace
 
-void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<Patch>& patches, const DirectOptions& options, const StageProgress& stage,
-  ConvergenceRecord* record, DirectResult& result)
+std::unique_ptr<DirectKind> MakeBeams(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Patch>& patches, const ReceiverGroups& groups, const DirectOptions& options,
+  DirectFields& fields, const StageProgress& stage, double seconds)
 {
-  const ConvergenceRecord clock;
-  StageProgress preparing = stage;
-  preparing.End = stage.Begin + 0.1 * (stage.End - stage.Begin);
-  const BeamLights lights(scene, occluders, options, true, preparing);
-  if (lights.Size() == 0 || patches.empty())
+  auto lights = std::make_unique<BeamLights>(scene, options);
+  if (lights->Size() == 0)
   {
-    return;
+    return nullptr;
   }
-  DirectOptions left = options;
-  if (options.SecondsLeft > 0.0)
+  // Nothing is built for lights that reach nothing, and nothing that the time does not allow.
+  bool noTime = false;
+  if (lights->Hides && Reach(scene, *lights, patches, groups))
   {
-    left.SecondsLeft = std::max(1e-9, options.SecondsLeft - clock.Elapsed());
+    noTime = seconds > 0.0 && occluders.BuildingSeconds(options.Threads) > seconds;
+    if (!noTime)
+    {
+      lights->FindShadows(scene, occluders, options, true, stage);
+    }
   }
-  StageProgress running = stage;
-  running.Begin = preparing.End;
-  BeamRun(scene, occluders, patches, left, lights, result).Run(running, record);
+  return std::make_unique<PatchBeams>(
+    scene, patches, options, std::move(lights), noTime, fields, groups);
 }
 
 } // namespace radiometry

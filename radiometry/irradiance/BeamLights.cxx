@@ -8,8 +8,8 @@
 namespace radiometry
 {
 
-BeamLights::BeamLights(const Scene& scene, const OcclusionScene& occluders,
-  const DirectOptions& options, bool shadows, const StageProgress& stage)
+BeamLights::BeamLights(const Scene& scene, const DirectOptions& options)
+  : Hides(options.Occlusion && !scene.Triangles.empty())
 {
   for (std::size_t k = 0; k < scene.Lights.size(); ++k)
   {
@@ -21,21 +21,38 @@ BeamLights::BeamLights(const Scene& scene, const OcclusionScene& occluders,
         std::make_unique<SourceFlux>(light, options.SpotShape, options.Attenuation));
     }
   }
-  if (shadows && options.Occlusion && !scene.Triangles.empty() && this->Size() > 0)
-  {
-    this->Lines = &occluders.Lines(scene, options.Threads, stage);
-  }
-  for (const std::unique_ptr<SourceFlux>& source : this->Sources)
-  {
-    this->Outlines.push_back(
-      this->Lines ? std::make_unique<Silhouettes>(scene, *this->Lines, source->GetLight()) : nullptr);
-    this->Cutters.push_back(std::make_unique<ShadowCutter>(*source, this->Outlines.back().get(),
-      occluders,
-      Compiled(Effect::Transmission) && options.Transmission && occluders.HasPanes()
-        ? scene.Optics.Bands
-        : 0));
-  }
   this->Tree = LightTree(this->Sources, scene.Optics.Bands);
+  this->Outlines.resize(this->Size());
+  this->Cutters.resize(this->Size());
+}
+
+BeamLights::BeamLights(const Scene& scene, const OcclusionScene& occluders,
+  const DirectOptions& options, bool shadows, const StageProgress& stage)
+  : BeamLights(scene, options)
+{
+  this->FindShadows(scene, occluders, options, shadows, stage);
+}
+
+void BeamLights::FindShadows(const Scene& scene, const OcclusionScene& occluders,
+  const DirectOptions& options, bool lines, const StageProgress& stage)
+{
+  if (!this->Hides || this->Size() == 0)
+  {
+    return;
+  }
+  occluders.Prepare();
+  this->Lines = lines ? &occluders.Lines(scene, options.Threads, stage) : nullptr;
+  const int bands = Compiled(Effect::Transmission) && options.Transmission && occluders.HasPanes()
+    ? scene.Optics.Bands
+    : 0;
+  for (std::size_t k = 0; k < this->Size(); ++k)
+  {
+    this->Outlines[k] = lines
+      ? std::make_unique<Silhouettes>(scene, *this->Lines, this->Sources[k]->GetLight())
+      : nullptr;
+    this->Cutters[k] = std::make_unique<ShadowCutter>(
+      *this->Sources[k], this->Outlines[k].get(), occluders, bands);
+  }
 }
 
 double Magnitude(const Light& light)

@@ -16,16 +16,22 @@ namespace radiometry
 class BeamLights
 {
 public:
-  /// `shadows`: what may hide a light from a patch is wanted, too.
+  /// The lights alone, without what may hide them; Tree is there.
+  BeamLights(const Scene& scene, const DirectOptions& options);
+  /// ... and what rays need; with `shadows` the lines that bound them, too.
   BeamLights(const Scene& scene, const OcclusionScene& occluders, const DirectOptions& options,
     bool shadows, const StageProgress& stage);
+  /// Finds that for lights made without.
+  void FindShadows(const Scene& scene, const OcclusionScene& occluders,
+    const DirectOptions& options, bool lines, const StageProgress& stage);
 
   std::size_t Size() const { return this->Sources.size(); }
 
-  const ShadowLines* Lines = nullptr; // null: nothing hides anything
+  bool Hides = false;                 // surfaces may hide them
+  const ShadowLines* Lines = nullptr; // null: nothing hides anything, or there is no time to look
   std::vector<std::unique_ptr<SourceFlux>> Sources;
   std::vector<std::unique_ptr<Silhouettes>> Outlines; // null without Lines
-  std::vector<std::unique_ptr<ShadowCutter>> Cutters;
+  std::vector<std::unique_ptr<ShadowCutter>> Cutters; // null where nothing is asked of them
   LightTree Tree;
 };
 

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <limits>
 #include <memory>
-#include <numeric>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 namespace radiometry
@@ -126,16 +126,18 @@ public:
     , Occluders(occluders)
     , Lights(lights)
     , Points(points)
-    , Shadows(options.Occlusion && !scene.Triangles.empty())
+    , Hides(lights.Hides)
     , Extent(extent)
     , Bands(static_cast<std::size_t>(scene.Optics.Bands))
-    , Transmits(lights.Size() > 0 && lights.Cutters[0]->Transmits())
+    , Transmits(lights.Size() > 0 && lights.Cutters[0] && lights.Cutters[0]->Transmits())
     , Seen(this->Bands)
   {
   }
 
-  void Load(const std::uint32_t* begin, const std::uint32_t* end)
+  /// `blind`: there is no time to ask what is hidden; half of each light is taken.
+  void Load(const std::uint32_t* begin, const std::uint32_t* end, bool blind)
   {
+    this->Shadows = this->Hides && !blind && this->Lights.Cutters[0];
     this->Ids = begin;
     this->Count = static_cast<std::size_t>(end - begin);
     this->Around = {};
@@ -171,7 +173,7 @@ public:
     LightShare* shares) override
   {
     const SourceFlux& source = *this->Lights.Sources[light];
-    const ShadowCutter& cutter = *this->Lights.Cutters[light];
+    const ShadowCutter* cutter = this->Lights.Cutters[light].get();
     std::int64_t rays = 0;
     this->Tint.assign(this->Transmits ? this->Count * this->Bands : 0, 1.0);
     this->Starts.clear();
@@ -188,7 +190,7 @@ public:
       shares[i].Open = shares[i].Lit = e;
       if (this->Shadows && this->Transmits)
       {
-        See(this->Geometry, source, cutter, p, this->From[i], this->Seen);
+        See(this->Geometry, source, *cutter, p, this->From[i], this->Seen);
         rays += this->Seen.Rays;
         this->Tinted(i, e, shares[i]);
       }
@@ -197,7 +199,7 @@ public:
         this->AddStarts(source, p, i);
       }
     }
-    rays += this->Trace(cutter);
+    rays += this->Shadows ? this->Trace(*cutter) : 0;
     for (std::size_t i = 0; i < this->Count; ++i)
     {
       LightShare& share = shares[i];
@@ -207,6 +209,10 @@ public:
         share.Lit *= this->Asked[i] > 0 ? static_cast<double>(this->Lit[i]) / this->Asked[i] : 0.0;
         // A shadow's edge runs through the vertex.
         share.Systematic += edge ? 0.5 * share.Open : 0.0;
+      }
+      else if (this->Hides && !this->Shadows)
+      {
+        share.Lit = share.Systematic = 0.5 * share.Open;
       }
       share.Systematic += 16.0 * Epsilon * share.Lit;
     }
@@ -259,7 +265,8 @@ private:
   const OcclusionScene& Occluders;
   const BeamLights& Lights;
   const std::vector<SurfacePoint>& Points;
-  const bool Shadows;
+  const bool Hides;
+  bool Shadows = false;
   const double Extent;
   const std::size_t Bands;
   const bool Transmits;
@@ -276,157 +283,193 @@ private:
   std::vector<double> Tint;
 };
 
-/// The points in the order of a curve that fills space: runs of them are neighbours.
-std::vector<std::uint32_t> SpatialOrder(const std::vector<SurfacePoint>& points)
+/// Beams at points, in groups of neighbours.
+class PointBeams : public DirectKind
 {
-  Box3 box;
-  for (const SurfacePoint& p : points)
+public:
+  PointBeams(const Scene& scene, const OcclusionScene& occluders,
+    const std::vector<SurfacePoint>& points, const DirectOptions& options,
+    std::unique_ptr<BeamLights> lights, bool noTime, DirectFields& fields,
+    const ReceiverGroups& groups)
+    : DirectKind(0, points.size(), scene.Optics.Bands, options, fields, &groups)
+    , Lights(std::move(lights))
+    , Peaks(groups.Size(), 0.0)
+    , Workers([this, &scene, &occluders, &points, &options, extent = Extent(scene)] {
+      return std::make_unique<Worker>(scene, occluders, *this->Lights, points, options, extent);
+    })
   {
-    box.Add(p.Point);
-  }
-  const Vec3 size = box.Size();
-  const double longest = std::max({ size.x, size.y, size.z });
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    std::uint64_t key = 0;
-    for (int a = 0; a < 3; ++a)
+    this->NoTime = noTime;
+    if (this->Own().Dropped.empty())
     {
-      const double place =
-        longest > 0.0 ? (points[i].Point[a] - box.Min[a]) / longest * 1048575.0 : 0.0;
-      auto digits = static_cast<std::uint64_t>(std::clamp(place, 0.0, 1048575.0));
-      for (int bit = 0; bit < 20; ++bit, digits >>= 1)
-      {
-        key |= (digits & 1) << (3 * bit + a);
-      }
+      this->Own().Dropped.assign(points.size(), 0.0f);
     }
-    keys[i] = { key, static_cast<std::uint32_t>(i) };
   }
-  tbb::parallel_sort(keys.begin(), keys.end());
-  std::vector<std::uint32_t> order(points.size());
-  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& k) { return k.second; });
-  return order;
-}
 
-/// What a thread works with.
-struct Worker
-{
-  Worker(const Scene& scene, const OcclusionScene& occluders, const BeamLights& lights,
-    const std::vector<SurfacePoint>& points, const DirectOptions& options, double extent)
-    : Block(scene, occluders, lights, points, options, extent)
-    , Sum(lights.Tree, scene.Optics.Bands)
+  const char* Name() const override { return "direct light"; }
+
+protected:
+  /// In haste a few of many lights first; then all.
+  int Rounds(bool hurried) const override
   {
+    int rounds = 1;
+    for (std::size_t most = 8; hurried && 2 * most < this->Lights->Size(); most *= 8)
+    {
+      ++rounds;
+    }
+    return rounds;
   }
-  PointBlock Block;
-  LightSum Sum;
+  std::size_t Most(int round, bool hurried) const
+  {
+    return round + 1 < this->Rounds(hurried) ? std::size_t{ 8 } << (3 * round)
+                                             : std::numeric_limits<std::size_t>::max();
+  }
+  double Guess(int round, bool hurried) const override
+  {
+    return 1e-5 *
+      static_cast<double>(std::min(this->Most(round, hurried), this->Lights->Size()));
+  }
+  bool Work(std::size_t item, int round, Haste haste) override
+  {
+    Worker& worker = *this->Workers.local();
+    const std::uint32_t* ids = this->Groups->Begin(item);
+    const auto count = static_cast<std::size_t>(this->Groups->End(item) - ids);
+    const bool blind = haste == Haste::Blind;
+    const std::size_t most = blind ? 4 : this->Most(round, haste == Haste::Some);
+    const bool last = round + 1 == this->Rounds(haste == Haste::Some) && !blind;
+    worker.Block.Load(ids, ids + count, blind);
+    LightEffort effort;
+    effort.Lights = most;
+    effort.FirstLook = std::min<std::size_t>(effort.FirstLook, most);
+    effort.RelativeTolerance = this->Options.RelativeTolerance;
+    effort.AbsoluteTolerance = this->Options.AbsoluteTolerance;
+    effort.Dropped = this->Options.Dropped;
+    DirectField& own = this->Own();
+    std::array<std::uint8_t, PointBlock::Most> active{};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      active[i] = (blind ? this->Fresh(ids[i]) : round > 0 || this->Waits(ids[i])) ? 1 : 0;
+    }
+    LightSum& sum = worker.Sum;
+    this->RayCount += sum.Compute(worker.Block, worker.Block.Bounds(), count, active.data(),
+      effort, Hash64(this->Options.NumberOf(ids[0]), most));
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (active[i] == 0)
+      {
+        continue;
+      }
+      std::copy_n(&sum.Value[i * this->Bands], this->Bands, &own.Value[ids[i] * this->Bands]);
+      std::copy_n(&sum.Error[i * this->Bands], this->Bands, &own.Error[ids[i] * this->Bands]);
+      own.Dropped[ids[i]] = static_cast<float>(sum.Dropped[i]);
+      own.State[ids[i]] = static_cast<std::uint8_t>(DirectField::Computed |
+        (sum.Uncertain[i] != 0 || sum.Dropped[i] > 0.0 ? DirectField::Improvable : 0) |
+        (last ? 0 : DirectField::Unfinished));
+    }
+    this->Peaks[item] = std::max(this->Peaks[item], sum.PeakUnshadowed);
+    return !last;
+  }
+  void Between(int, const std::vector<std::uint32_t>& items, std::vector<std::uint8_t>&) override
+  {
+    for (const std::uint32_t item : items)
+    {
+      this->Own().Peak = std::max(this->Own().Peak, this->Peaks[item]);
+    }
+  }
+
+private:
+  /// What a thread works with.
+  struct Worker
+  {
+    Worker(const Scene& scene, const OcclusionScene& occluders, const BeamLights& lights,
+      const std::vector<SurfacePoint>& points, const DirectOptions& options, double extent)
+      : Block(scene, occluders, lights, points, options, extent)
+      , Sum(lights.Tree, scene.Optics.Bands)
+    {
+    }
+    PointBlock Block;
+    LightSum Sum;
+  };
+
+  std::unique_ptr<BeamLights> Lights;
+  std::vector<double> Peaks;
+  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> Workers;
 };
 
 } // namespace
 
-void PointGroups(const std::vector<SurfacePoint>& points, std::vector<std::uint32_t>& order,
-  std::vector<std::uint32_t>& first)
+std::vector<std::uint32_t> SpatialOrder(const std::vector<Vec3>& places)
 {
-  order = SpatialOrder(points);
-  first.clear();
-  for (std::size_t k = 0; k < points.size(); k += PointBlock::Most)
+  Box3 box;
+  for (const Vec3& p : places)
   {
-    first.push_back(static_cast<std::uint32_t>(k));
+    box.Add(p);
   }
-  first.push_back(static_cast<std::uint32_t>(points.size()));
+  const Vec3 size = box.Size();
+  const double longest = std::max({ size.x, size.y, size.z });
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(places.size());
+  const auto spread = [](std::uint64_t digits) {
+    digits = (digits | digits << 32) & 0x001f00000000ffffull;
+    digits = (digits | digits << 16) & 0x001f0000ff0000ffull;
+    digits = (digits | digits << 8) & 0x100f00f00f00f00full;
+    digits = (digits | digits << 4) & 0x10c30c30c30c30c3ull;
+    return (digits | digits << 2) & 0x1249249249249249ull;
+  };
+  tbb::parallel_for(
+    tbb::blocked_range<std::size_t>(0, places.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+      {
+        std::uint64_t key = 0;
+        for (int a = 0; a < 3; ++a)
+        {
+          const double place =
+            longest > 0.0 ? (places[i][a] - box.Min[a]) / longest * 1048575.0 : 0.0;
+          key |= spread(static_cast<std::uint64_t>(std::clamp(place, 0.0, 1048575.0))) << a;
+        }
+        keys[i] = { key, static_cast<std::uint32_t>(i) };
+      }
+    });
+  tbb::parallel_sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(places.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& k) { return k.second; });
+  return order;
 }
 
-void AddBeamIrradiance(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<SurfacePoint>& points, const DirectOptions& options,
-  const StageProgress& stage, ConvergenceRecord* record, DirectResult& result)
+ReceiverGroups PointGroups(const std::vector<SurfacePoint>& points)
 {
-  const ConvergenceRecord clock;
-  const auto bands = static_cast<std::size_t>(result.Bands);
-  // No outlines: a point needs one ray a light.
-  const BeamLights lights(scene, occluders, options, false, {});
-  if (lights.Size() == 0 || points.empty())
+  std::vector<Vec3> places;
+  places.reserve(points.size());
+  for (const SurfacePoint& p : points)
   {
-    return;
+    places.push_back(p.Point);
   }
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  if (!options.Numbers)
+  ReceiverGroups groups;
+  groups.Order = SpatialOrder(places);
+  for (std::size_t k = 0; k < points.size(); k += PointBlock::Most)
   {
-    order = SpatialOrder(points);
+    groups.First.push_back(static_cast<std::uint32_t>(k));
   }
-  const std::size_t blocks = (points.size() + PointBlock::Most - 1) / PointBlock::Most;
-  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers(
-    [&, extent = Extent(scene)] {
-      return std::make_unique<Worker>(scene, occluders, lights, points, options, extent);
-    });
-  std::atomic<std::int64_t> rays{ 0 };
-  std::atomic<bool> expired{ false };
-  std::vector<double> peaks(blocks, 0.0);
-  std::vector<double> dropped(blocks, 0.0);
-  const auto compute = [&](std::size_t k, std::size_t most) {
-    Worker& worker = *workers.local();
-    const std::uint32_t* ids = order.data() + k * PointBlock::Most;
-    const std::size_t count = std::min(PointBlock::Most, points.size() - k * PointBlock::Most);
-    worker.Block.Load(ids, ids + count);
-    LightEffort effort;
-    effort.Lights = most;
-    effort.FirstLook = std::min<std::size_t>(effort.FirstLook, most);
-    effort.RelativeTolerance = options.RelativeTolerance;
-    effort.AbsoluteTolerance = options.AbsoluteTolerance;
-    static constexpr std::array<std::uint8_t, PointBlock::Most> all = [] {
-      std::array<std::uint8_t, PointBlock::Most> a{};
-      for (auto& one : a)
-      {
-        one = 1;
-      }
-      return a;
-    }();
-    LightSum& sum = worker.Sum;
-    rays += sum.Compute(worker.Block, worker.Block.Bounds(), count, all.data(), effort,
-      Hash64(options.NumberOf(ids[0]), most));
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      std::copy_n(&sum.Value[i * bands], bands, &result.Irradiance[ids[i] * bands]);
-      std::copy_n(&sum.Error[i * bands], bands, &result.Error[ids[i] * bands]);
-    }
-    peaks[k] = std::max(peaks[k], sum.PeakUnshadowed);
-    dropped[k] = *std::max_element(sum.Dropped.begin(), sum.Dropped.end());
-  };
-  // In haste a few of many lights first.
-  std::vector<std::size_t> rounds;
-  for (std::size_t most = 8; options.SecondsLeft > 0.0 && 2 * most < lights.Size(); most *= 8)
+  groups.First.push_back(static_cast<std::uint32_t>(points.size()));
+  return groups;
+}
+
+std::unique_ptr<DirectKind> MakeBeams(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<SurfacePoint>& points, const ReceiverGroups& groups,
+  const DirectOptions& options, DirectFields& fields, const StageProgress& stage, double seconds)
+{
+  auto lights = std::make_unique<BeamLights>(scene, options);
+  if (lights->Size() == 0)
   {
-    rounds.push_back(most);
+    return nullptr;
   }
-  rounds.push_back(std::numeric_limits<std::size_t>::max());
-  const std::int64_t before = result.Rays;
-  for (std::size_t r = 0; r < rounds.size() && !expired; ++r)
+  const bool noTime =
+    lights->Hides && seconds > 0.0 && occluders.BuildingSeconds(options.Threads) > seconds;
+  if (!noTime)
   {
-    StageProgress part = stage;
-    const double span = (stage.End - stage.Begin) / static_cast<double>(rounds.size());
-    part.Begin = stage.Begin + span * static_cast<double>(r);
-    part.End = part.Begin + span;
-    ParallelFor(
-      blocks, options.Threads, part,
-      [&](std::size_t k) {
-        if (r > 0 && clock.Elapsed() > options.SecondsLeft)
-        {
-          expired = true;
-        }
-        if (!expired)
-        {
-          compute(k, rounds[r]);
-        }
-      },
-      1e-5 * static_cast<double>(std::min(rounds[r], lights.Size())));
-    result.Rays = before + rays;
-    RecordDirect(record, result, std::vector<double>(points.size(), 1.0), "direct light");
+    // No outlines: a point needs one ray a light.
+    lights->FindShadows(scene, occluders, options, false, stage);
   }
-  result.TimedOut = result.TimedOut || expired;
-  result.PeakUnshadowed += *std::max_element(peaks.begin(), peaks.end());
-  const double droppedPeak = *std::max_element(dropped.begin(), dropped.end());
-  result.DroppedPeak += droppedPeak;
-  result.DroppedMean +=
-    std::accumulate(dropped.begin(), dropped.end(), 0.0) / static_cast<double>(blocks);
+  return std::make_unique<PointBeams>(
+    scene, occluders, points, options, std::move(lights), noTime, fields, groups);
 }
 
 } // namespace radiometry

@@ -8,6 +8,7 @@
 #include "radiometry/scene/Scene.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,6 +30,10 @@ struct DirectOptions
   bool Environment = true;  // false: environment lights are left out
   bool Emission = false;    // true: emitting surfaces of the scene light it, too
   bool Transmission = true; // false: surfaces with Transmittance are opaque
+  /// Area lights, emitting surfaces and skies may be left out of a value beside which they are small.
+  bool DropAreas = true;
+  bool DropSky = true;
+  double Dropped = 0.0; // W/m^2: the bound on what was left out before, of every value
   int Threads = 0;          // 0: all
   const Communicator* Ranks = nullptr; // that share the receivers; null: this process alone
   /// Numbers of the receivers, which key their samples, where they are some of more (a rank's share,
@@ -46,6 +51,40 @@ struct DirectOptions
   {
     return this->Numbers ? this->Numbers[receiver] : receiver;
   }
+};
+
+/// The light of one kind of source on each receiver, kept so that a later run may go on from it.
+struct DirectField
+{
+  enum : std::uint8_t
+  {
+    Computed = 1,   // there is a value
+    Unfinished = 2, // time was over before it was good enough
+    Improvable = 4  // more work would make its error smaller
+  };
+  std::vector<double> Value; // receivers x bands, W/m^2
+  std::vector<double> Error;
+  std::vector<float> Dropped; // of the error: bounds on sources left out, and what neighbours share
+  std::vector<std::uint8_t> State;
+  std::vector<std::int32_t> Spent; // rays of the last estimate; empty: not known
+  std::vector<std::uint8_t> Dark;  // every ray was blocked; empty: not known
+  double Peak = 0.0;               // the greatest value, were nothing in the way, of any band
+  double RelativeTolerance = 1e300; // what all values have met
+  double AbsoluteTolerance = 1e300;
+
+  bool Empty() const { return this->State.empty(); }
+  /// Room for that many, where there is none yet.
+  void Begin(std::size_t receivers, std::size_t bands);
+  std::size_t MemoryBytes() const;
+};
+
+/// All kinds: beams, areas, skies.
+struct DirectState
+{
+  std::array<DirectField, 3> Fields;
+  std::int64_t Rays = 0;
+
+  std::size_t MemoryBytes() const;
 };
 
 /// Sums over a rank's receivers when a round of work ended.
@@ -71,8 +110,6 @@ struct DirectResult
   double PeakUnshadowed = 0.0;    // greatest value, were nothing in the way, of any band
   std::int64_t Rays = 0;
   bool TimedOut = false;
-  bool KeepRounds = false; // Rounds are kept, to be put together with other ranks'
-  std::vector<DirectRound> Rounds;
 };
 
 /// Direct irradiance, averaged over each patch, from the enabled lights of the scene.
@@ -90,8 +127,12 @@ DirectResult ComputeDirectIrradiance(const Scene& scene, const OcclusionScene& o
   const std::vector<SurfacePoint>& points, const DirectOptions& options,
   const StageProgress& stage = {}, ConvergenceRecord* record = nullptr);
 
-/// Adds a row of area-weighted mean error to the record, which may be null, or to Rounds.
-void RecordDirect(ConvergenceRecord* record, DirectResult& result,
-  const std::vector<double>& weights, const char* stage);
+/// What no double holds is an error (InputError{"Irradiance"}) and never an infinity handed on.
+void CheckFinite(const DirectResult& result);
+
+/// Rows of the record from what all ranks (null: one process) had when each of their rounds ended.
+/// Collective.
+void AddRounds(const Communicator* ranks, const std::vector<DirectRound>& rounds,
+  const char* stage, ConvergenceRecord& record);
 
 } // namespace radiometry

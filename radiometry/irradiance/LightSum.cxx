@@ -169,7 +169,7 @@ bool LightSum::Settle(const LightEffort& effort)
     bool fits = std::isfinite(together);
     for (std::size_t b = 0; b < this->Bands && fits; ++b)
     {
-      fits = this->Rest[b] <= DroppedShare *
+      fits = this->Rest[b] + effort.Dropped <= DroppedShare *
           std::max(effort.RelativeTolerance * this->Value[i * this->Bands + b],
             effort.AbsoluteTolerance);
     }

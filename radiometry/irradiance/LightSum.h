@@ -43,6 +43,7 @@ struct LightEffort
   std::size_t FirstLook = 32;
   double RelativeTolerance = 0.01;
   double AbsoluteTolerance = 0.0;
+  double Dropped = 0.0; // W/m^2: what was left out before, of each value
 };
 
 /// Sums up the light of many on a block of receivers, the strongest first.

@@ -33,7 +33,7 @@ struct PatchBlock::Pending
 {
   const SourceFlux& Source;
   const Silhouettes* Outline;
-  const ShadowCutter& Cutter;
+  const ShadowCutter* Cutter; // null: nothing hides anything, or there is no time to look
   const double* Basis;
   double Magnitude;
   std::size_t Count = 0; // of Facing
@@ -47,7 +47,7 @@ PatchBlock::PatchBlock(const Scene& scene, const BeamLights& lights,
   , Patches(patches)
   , Options(options)
   , Coordinates(extent)
-  , Bands(lights.Size() > 0 && lights.Cutters[0]->Transmits()
+  , Bands(lights.Size() > 0 && lights.Cutters[0] && lights.Cutters[0]->Transmits()
         ? static_cast<std::size_t>(scene.Optics.Bands)
         : 0)
 {
@@ -110,7 +110,10 @@ void PatchBlock::Load(const std::uint32_t* begin, const std::uint32_t* end)
         std::min(this->Around.CosSpread, Dot(this->Around.Normal, this->Normals[i]) - 1e-15);
     }
   }
-  this->FindPoints();
+  if (this->Lights.Lines)
+  {
+    this->FindPoints();
+  }
 }
 
 /// True when it is known on which side of a patch's plane a light is.
@@ -135,7 +138,7 @@ std::int64_t PatchBlock::Ask(std::size_t light, const std::uint8_t* active, cons
   LightShare* shares)
 {
   const SourceFlux& source = *this->Lights.Sources[light];
-  Pending now{ source, this->Lights.Outlines[light].get(), *this->Lights.Cutters[light], basis,
+  Pending now{ source, this->Lights.Outlines[light].get(), this->Lights.Cutters[light].get(), basis,
     Magnitude(source.GetLight()) };
   this->Tint.assign(this->Count * this->Bands, 1.0);
   for (std::size_t i = 0; i < this->Count; ++i)
@@ -171,7 +174,7 @@ std::int64_t PatchBlock::Ask(std::size_t light, const std::uint8_t* active, cons
   for (std::size_t k = 0; k < now.Count; ++k)
   {
     const std::size_t i = this->Facing[k];
-    const double guess = this->Lights.Lines ? 0.5 * this->Open[i] : 0.0;
+    const double guess = this->Lights.Hides ? 0.5 * this->Open[i] : 0.0;
     const double lit = shadows ? this->Lit[i] : this->Open[i] - guess;
     const double perArea = 1.0 / this->Areas[i];
     shares[i].Open = this->Open[i] * perArea;
@@ -294,11 +297,11 @@ bool PatchBlock::DecideTogether(Pending& now, std::size_t begin, std::size_t end
       const RayEnd from{ Centroid(patch.Corners), patch.Triangle };
       if (this->Bands == 0)
       {
-        hidden[r] = now.Cutter.Hidden(from);
+        hidden[r] = now.Cutter->Hidden(from);
         continue;
       }
       double* shares = &this->Shares[r == 0 ? 0 : this->Bands];
-      now.Cutter.Passing(from, shares);
+      now.Cutter->Passing(from, shares);
       for (std::size_t b = 0; b < this->Bands && r == 1; ++b)
       {
         agree = agree &&
@@ -357,7 +360,7 @@ void PatchBlock::DecideOne(
   const double allowed = DoubtShare * this->Factor[i] *
     std::max(this->Options.RelativeTolerance * std::sqrt(basis * this->Open[i]),
       this->Options.AbsoluteTolerance * this->Areas[i] / now.Magnitude);
-  const LitFlux flux = now.Cutter.Flux(patch, this->Normals[i], this->Open[i], crossings, allowed,
+  const LitFlux flux = now.Cutter->Flux(patch, this->Normals[i], this->Open[i], crossings, allowed,
     this->Work, complete ? &this->Lines : nullptr);
   now.Rays += flux.Rays;
   this->Lit[i] = flux.Value;
@@ -388,7 +391,7 @@ void PatchBlock::Trace(Pending& now)
   }
   if (this->Bands == 0)
   {
-    now.Cutter.Hidden(this->Starts, this->Hidden);
+    now.Cutter->Hidden(this->Starts, this->Hidden);
   }
   now.Rays += static_cast<std::int64_t>(this->Starts.size());
   for (std::size_t s = 0; s < this->Starts.size(); ++s)
@@ -396,7 +399,7 @@ void PatchBlock::Trace(Pending& now)
     const std::size_t i = this->StartOf[s];
     if (this->Bands > 0)
     {
-      now.Cutter.Passing(this->Starts[s], this->Shares.data());
+      now.Cutter->Passing(this->Starts[s], this->Shares.data());
       this->SetShares(i, this->Shares.data(), this->Open[i]);
       continue;
     }

@@ -9,12 +9,18 @@ namespace radiometry
 
 Convexity FindConvexity(const Scene& scene)
 {
-  constexpr double most = 1e8; // pairs of a plane and a point, about 0.1 s
-  if (scene.Triangles.empty() ||
-    static_cast<double>(scene.Triangles.size()) * static_cast<double>(scene.Points.size()) > most)
+  if (scene.Triangles.empty())
   {
     return Convexity::General;
   }
+  // Pairs of a plane and a point: at most about 0.1 s, and of large meshes no more planes than take a
+  // small part of what else such a scene costs.
+  constexpr std::size_t usual = 100000000;
+  constexpr std::size_t planes = 24;
+  const std::size_t most = scene.Triangles.size() <= usual / scene.Points.size()
+    ? usual
+    : std::max(usual / 10, planes * scene.Points.size());
+  std::size_t pairs = 0;
   double extent = 0.0;
   for (const Vec3& p : scene.Points)
   {
@@ -41,6 +47,11 @@ Convexity FindConvexity(const Scene& scene)
     origin = corners[0];
     bool before = false;
     bool behind = false;
+    pairs += scene.Points.size();
+    if (pairs > most)
+    {
+      return Convexity::General;
+    }
     for (const Vec3& p : scene.Points)
     {
       const double height = Dot(n, p - corners[0]);

@@ -166,6 +166,7 @@ bool OcclusionScene::Internals::Grazes(const Vec3& direction, std::int32_t t) co
 
 RayQuery OcclusionScene::Internals::MakeQuery(const RayEnd& from, const Vec3& direction) const
 {
+  this->Ready();
   RayQuery q;
   q.Start = this->ToBox(from.Point);
   q.Direction = direction / Norm(direction);

@@ -13,6 +13,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -25,6 +26,14 @@ namespace radiometry
 /// OcclusionRays.cxx.
 struct OcclusionScene::Internals
 {
+  std::vector<Vec3> Points; // of the scene, m
+  std::vector<std::array<std::int32_t, 3>> Corners;
+  // What follows is made when it is first asked for: Build() by whoever makes a ray or looks into
+  // the tree, BuildRays() by the first ray.
+  std::once_flag BuildFlag;
+  std::atomic<bool> Built{ false };
+  std::once_flag RaysFlag;
+  std::atomic<bool> HasRays{ false };
   Vec3 Center;
   double Scale = 1.0;
   Box3 Bounds; // of the scaled triangles
@@ -45,6 +54,19 @@ struct OcclusionScene::Internals
     if (this->Handle)
     {
       rtcReleaseScene(this->Handle);
+    }
+  }
+
+  void Build();
+  void BuildTree();
+  void BuildRays();
+  void BuildHandle();
+  /// Everything that a ray needs.
+  void Ready() const
+  {
+    if (!this->HasRays.load(std::memory_order_acquire))
+    {
+      const_cast<Internals*>(this)->BuildRays();
     }
   }
 

@@ -40,6 +40,10 @@ struct RayEnd
 /// exactly on its own plane. No offset in metres; a triangle never hides its own points; triangles
 /// coplanar with an end's triangle do not hide it.
 ///
+/// Made lazily: the tree over the triangles when it or a ray is first asked for, Embree's hierarchy
+/// for the first ray, so that a scene in which nothing hides anything pays for neither. Prepare()
+/// where many threads are about to ask: they would wait for the one that came first.
+///
 /// Thread-safe after construction.
 class OcclusionScene
 {
@@ -48,6 +52,15 @@ public:
   ~OcclusionScene();
   OcclusionScene(const OcclusionScene&) = delete;
   OcclusionScene& operator=(const OcclusionScene&) = delete;
+
+  /// Makes what rays need, with all threads.
+  void Prepare() const;
+  /// Whether that has been made.
+  bool HasRays() const;
+  /// About how long that, and Lines, will take: 0 where they are there.
+  double BuildingSeconds(int threads) const;
+  /// Of all that has been made so far; what Embree takes is estimated.
+  std::size_t MemoryBytes() const;
 
   /// True when the segment between the two ends is blocked.
   bool Occluded(const RayEnd& from, const RayEnd& to) const;

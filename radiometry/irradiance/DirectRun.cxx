@@ -1,0 +1,561 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiometry/irradiance/DirectRun.h"
+
+#include "radiometry/effects/CompiledEffects.h"
+#include "radiometry/geometry/Sampling.h"
+#include "radiometry/irradiance/AreaIrradiance.h"
+#include "radiometry/irradiance/BeamIrradiance.h"
+#include "radiometry/irradiance/PatchClusters.h"
+#include "radiometry/irradiance/SkyIrradiance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace radiometry
+{
+namespace
+{
+
+/// Of the items, and at least so many, are looked at by a pilot ...
+constexpr double PilotShare = 0.08;
+constexpr std::size_t LeastPilot = 32;
+/// ... unless what it says is sure enough before: standard deviation of the mean, relative.
+constexpr double EnoughDoubt = 0.12;
+/// Seconds that a value takes which is only bounded, on one thread.
+constexpr double BlindSeconds = 0.4e-6;
+/// Clusters are made in space for so many lights and more, were nothing in the way.
+constexpr std::size_t ManyLights = 32;
+
+/// Runs of 64 of an order.
+ReceiverGroups Runs(std::vector<std::uint32_t> order)
+{
+  ReceiverGroups groups;
+  PlainGroups(order.size(), groups.Order, groups.First);
+  groups.Order = std::move(order);
+  return groups;
+}
+
+std::vector<std::uint32_t> Identity(std::size_t n)
+{
+  std::vector<std::uint32_t> order(n);
+  std::iota(order.begin(), order.end(), 0u);
+  return order;
+}
+
+/// Receivers that are computed together.
+ReceiverGroups MakeGroups(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Patch>& patches, const DirectOptions& options)
+{
+  if (!AnyBeam(scene, options))
+  {
+    return Runs(Identity(patches.size()));
+  }
+  if (!options.Occlusion || scene.Triangles.empty())
+  {
+    // Nothing is asked of the tree over the triangles: it need not be made.
+    if (scene.Lights.size() < ManyLights)
+    {
+      return Runs(Identity(patches.size()));
+    }
+    std::vector<Vec3> places;
+    places.reserve(patches.size());
+    for (const Patch& p : patches)
+    {
+      places.push_back(Centroid(p.Corners));
+    }
+    return Runs(SpatialOrder(places));
+  }
+  const PatchClusters clusters(scene, occluders, patches, options.Threads);
+  ReceiverGroups groups;
+  groups.Order.reserve(patches.size());
+  for (std::size_t c = 0; c < clusters.Size(); ++c)
+  {
+    groups.First.push_back(static_cast<std::uint32_t>(groups.Order.size()));
+    groups.Order.insert(groups.Order.end(), clusters.Begin(c), clusters.End(c));
+  }
+  groups.First.push_back(static_cast<std::uint32_t>(groups.Order.size()));
+  return groups;
+}
+ReceiverGroups MakeGroups(const Scene& scene, const OcclusionScene&,
+  const std::vector<SurfacePoint>& points, const DirectOptions& options)
+{
+  return AnyBeam(scene, options) ? PointGroups(points) : Runs(Identity(points.size()));
+}
+
+double WeightOf(const Patch& patch)
+{
+  return Area(patch.Corners);
+}
+double WeightOf(const SurfacePoint&)
+{
+  return 1.0;
+}
+
+/// Places in [0, n), each once, spread over all of it from the first on.
+class SpreadOrder
+{
+public:
+  explicit SpreadOrder(std::size_t n)
+    : Count(n)
+    , Taken(n, 0)
+  {
+  }
+  bool Next(std::size_t& place)
+  {
+    if (this->Used == this->Count)
+    {
+      return false;
+    }
+    constexpr double golden = 0.6180339887498949;
+    this->At += golden;
+    this->At -= std::floor(this->At);
+    place = std::min(
+      this->Count - 1, static_cast<std::size_t>(this->At * static_cast<double>(this->Count)));
+    while (this->Taken[place] != 0)
+    {
+      place = place + 1 < this->Count ? place + 1 : 0;
+    }
+    this->Taken[place] = 1;
+    ++this->Used;
+    return true;
+  }
+
+private:
+  std::size_t Count;
+  std::size_t Used = 0;
+  double At = 0.5;
+  std::vector<std::uint8_t> Taken;
+};
+
+template <typename Vector>
+std::size_t BytesOf(const Vector& v)
+{
+  return v.capacity() * sizeof(typename Vector::value_type);
+}
+
+} // namespace
+
+void DirectField::Begin(std::size_t receivers, std::size_t bands)
+{
+  if (this->State.size() == receivers && this->Value.size() == receivers * bands)
+  {
+    return;
+  }
+  *this = {};
+  this->State.assign(receivers, 0);
+  this->Value.assign(receivers * bands, 0.0);
+  this->Error = this->Value;
+}
+
+std::size_t DirectField::MemoryBytes() const
+{
+  return BytesOf(this->Value) + BytesOf(this->Error) + BytesOf(this->Dropped) +
+    BytesOf(this->State) + BytesOf(this->Spent) + BytesOf(this->Dark);
+}
+
+std::size_t DirectState::MemoryBytes() const
+{
+  std::size_t bytes = 0;
+  for (const DirectField& field : this->Fields)
+  {
+    bytes += field.MemoryBytes();
+  }
+  return bytes;
+}
+
+template <typename Receiver>
+DirectRun<Receiver>::DirectRun(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Receiver>& receivers, const DirectOptions& options,
+  const StageProgress& stage, DirectState* kept)
+  : Geometry(scene)
+  , Occluders(occluders)
+  , All(receivers)
+  , Bands(static_cast<std::size_t>(scene.Optics.Bands))
+  , Options(options)
+  , State(kept ? kept : &this->Local)
+{
+  Report(stage.Listener, stage.Begin, stage.Name);
+  this->RaysBefore = this->State->Rays;
+  if (options.Ranks)
+  {
+    this->Groups = MakeGroups(scene, occluders, receivers, options);
+    this->Share =
+      std::make_unique<ReceiverShare>(*options.Ranks, this->Groups.Order, this->Groups.First);
+    this->Own = this->Share->Take(receivers);
+    this->Options.Numbers = this->Share->Begin();
+    // Its own groups, in the order in which they were dealt.
+    ReceiverGroups own;
+    own.Order = Identity(this->Own.size());
+    const auto rank = static_cast<std::size_t>(options.Ranks->Rank());
+    const auto size = static_cast<std::size_t>(options.Ranks->Size());
+    std::uint32_t at = 0;
+    own.First.push_back(0);
+    for (std::size_t g = rank; g < this->Groups.Size(); g += size)
+    {
+      at += this->Groups.First[g + 1] - this->Groups.First[g];
+      own.First.push_back(at);
+    }
+    this->Groups = std::move(own);
+  }
+  this->MakeKinds(stage);
+}
+
+template <typename Receiver>
+DirectRun<Receiver>::~DirectRun() = default;
+
+template <typename Receiver>
+void DirectRun<Receiver>::MakeKinds(const StageProgress& stage)
+{
+  const std::vector<Receiver>& mine = this->Mine();
+  DirectFields& fields = this->State->Fields;
+  const bool needed[DirectKinds] = { AnyBeam(this->Geometry, this->Options),
+    AnyArea(this->Geometry, this->Options), AnySky(this->Geometry, this->Options) };
+  const int bands = this->Geometry.Optics.Bands;
+  const bool together = this->Options.Ranks && this->Options.MeanShare > 0.0;
+  for (int k = 0; k < DirectKinds; ++k)
+  {
+    DirectField& field = fields[static_cast<std::size_t>(k)];
+    if (!needed[k] || (mine.empty() && !together))
+    {
+      field = {};
+      continue;
+    }
+    if (!field.Empty() && field.State.size() != mine.size())
+    {
+      field = {};
+    }
+    if (!together && !DirectKind::AnyNeeded(fields, k, mine.size(), bands, this->Options))
+    {
+      continue; // all of it is there
+    }
+    // What is built of it may take half of what is left.
+    const double left = this->Options.SecondsLeft > 0.0
+      ? std::max(1e-9, 0.5 * (this->Options.SecondsLeft - this->Clock.Elapsed()))
+      : 0.0;
+    std::unique_ptr<DirectKind>& made = this->Kinds[static_cast<std::size_t>(k)];
+    if (k == 0)
+    {
+      if (!this->Share)
+      {
+        this->Groups = MakeGroups(this->Geometry, this->Occluders, mine, this->Options);
+      }
+      made = MakeBeams(this->Geometry, this->Occluders, mine, this->Groups, this->Options, fields,
+        stage, left);
+    }
+    else if (k == 1)
+    {
+      made = MakeAreas(this->Geometry, this->Occluders, mine, this->Options, fields, left);
+    }
+    else
+    {
+      made = MakeSkies(this->Geometry, this->Occluders, mine, this->Options, fields, stage, left);
+    }
+    if (!made)
+    {
+      field = {};
+    }
+  }
+}
+
+template <typename Receiver>
+int DirectRun<Receiver>::Workers() const
+{
+  const int available = AvailableThreads();
+  return this->Options.Threads > 0 ? std::min(this->Options.Threads, available) : available;
+}
+
+template <typename Receiver>
+std::size_t DirectRun<Receiver>::Waiting() const
+{
+  std::size_t count = 0;
+  for (const auto& kind : this->Kinds)
+  {
+    count += kind ? kind->Waiting().size() : 0;
+  }
+  return count;
+}
+
+/// Items of a kind that may come next: all that counts for them has been computed.
+template <typename Receiver>
+std::vector<std::uint32_t> DirectRun<Receiver>::Candidates(std::size_t kind) const
+{
+  std::vector<std::uint32_t> items = this->Kinds[kind]->Waiting();
+  for (std::size_t k = 0; k < kind; ++k)
+  {
+    if (this->Kinds[k])
+    {
+      items.erase(std::remove_if(items.begin(), items.end(),
+                    [&](std::uint32_t i) { return this->Kinds[k]->Waits(i); }),
+        items.end());
+    }
+  }
+  return items;
+}
+
+template <typename Receiver>
+void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, double most)
+{
+  DirectKind& work = *this->Kinds[kind];
+  const std::vector<std::uint32_t> all = work.Waiting();
+  const std::vector<std::uint32_t> items =
+    kind == 0 ? all : this->Candidates(kind);
+  const ConvergenceRecord clock;
+  SpreadOrder order(items.size());
+  const auto some = [&](std::size_t count) {
+    std::vector<std::uint32_t> chunk;
+    std::size_t place = 0;
+    while (chunk.size() < count && order.Next(place))
+    {
+      chunk.push_back(items[place]);
+    }
+    std::sort(chunk.begin(), chunk.end());
+    return chunk;
+  };
+  const auto workers = static_cast<std::size_t>(this->Workers());
+  DirectKind::Limits limits;
+  std::size_t done = 0;
+  ItemCost warm; // what the first ones take is not what the others do
+  for (const std::size_t count : { std::size_t{ 1 }, 2 * workers })
+  {
+    if (items.size() > 20 * count)
+    {
+      const std::vector<std::uint32_t> chunk = some(count);
+      done += chunk.size();
+      work.Run(chunk, limits, stage, &warm, {});
+    }
+  }
+  ItemCost cost;
+  const std::size_t enough =
+    std::max(LeastPilot, static_cast<std::size_t>(PilotShare * static_cast<double>(items.size())));
+  std::size_t next = std::max<std::size_t>(16, 4 * workers);
+  while (done < items.size() && cost.Items < enough &&
+    !(cost.Items >= LeastPilot && cost.Doubt() < EnoughDoubt) &&
+    !(most > 0.0 && cost.Items > 0 && clock.Elapsed() > most))
+  {
+    const std::vector<std::uint32_t> chunk = some(std::min(next, enough));
+    done += chunk.size();
+    work.Run(chunk, limits, stage, &cost, {});
+    next *= 2;
+  }
+  if (cost.Items == 0)
+  {
+    cost = warm;
+  }
+  const std::size_t left = all.size() - std::min(all.size(), done);
+  this->Rest[kind] = cost.Mean() * static_cast<double>(left) /
+    static_cast<double>(std::max<std::size_t>(1, std::min(workers, left)));
+}
+
+template <typename Receiver>
+double DirectRun<Receiver>::Pilot(const StageProgress& stage, double most)
+{
+  double rest = 0.0;
+  for (std::size_t k = 0; k < DirectKinds; ++k)
+  {
+    if (this->Kinds[k])
+    {
+      StageProgress part = stage;
+      part.Begin = part.End = stage.Begin;
+      this->PilotOf(k, part, most / DirectKinds);
+      rest += this->Rest[k];
+    }
+  }
+  Report(stage.Listener, stage.End, stage.Name);
+  return rest;
+}
+
+template <typename Receiver>
+void DirectRun<Receiver>::Finish(
+  const StageProgress& stage, ConvergenceRecord* record, double seconds)
+{
+  const ConvergenceRecord clock;
+  double known = 0.0;
+  double weights[DirectKinds] = { 1.0, 3.0, 3.0 };
+  for (std::size_t k = 0; k < DirectKinds; ++k)
+  {
+    known += this->Kinds[k] ? this->Rest[k] : 0.0;
+  }
+  const bool piloted = known > 0.0;
+  double total = 0.0;
+  for (std::size_t k = 0; k < DirectKinds; ++k)
+  {
+    weights[k] = piloted ? std::max(this->Rest[k], 0.05 * known) : weights[k];
+    total += this->Kinds[k] ? weights[k] : 0.0;
+  }
+  const double reserve = BlindSeconds * static_cast<double>(this->Mine().size()) / this->Workers();
+  const bool hurried = seconds > 0.0 && (!piloted || known > 0.8 * seconds);
+  double done = 0.0;
+  for (std::size_t k = 0; k < DirectKinds; ++k)
+  {
+    if (!this->Kinds[k])
+    {
+      continue;
+    }
+    StageProgress part = stage;
+    part.Begin = stage.Begin + (stage.End - stage.Begin) * done / total;
+    done += weights[k];
+    part.End = stage.Begin + (stage.End - stage.Begin) * done / total;
+    DirectKind::Limits limits;
+    limits.Clock = &clock;
+    limits.Hurried = hurried;
+    std::vector<std::uint32_t> items = this->Kinds[k]->Waiting();
+    if (seconds > 0.0)
+    {
+      // Its share of what is left; the last one gets all of it.
+      const double now = clock.Elapsed();
+      const double left = seconds - now - reserve;
+      limits.Until = std::max(1e-9, now + left * weights[k] / (total - done + weights[k]));
+      // Spread over the scene, so that what is done in time is a picture of all of it.
+      std::stable_sort(items.begin(), items.end(),
+        [](std::uint32_t a, std::uint32_t b) { return Hash64(a) < Hash64(b); });
+    }
+    if (!this->Kinds[k]->Run(std::move(items), limits, part, nullptr,
+          [&] { this->Record(k, record); }))
+    {
+      this->TimedOut = true;
+    }
+    DirectField& field = this->State->Fields[k];
+    if (!this->TimedOut &&
+      !(this->Options.RelativeTolerance >= field.RelativeTolerance &&
+        this->Options.AbsoluteTolerance >= field.AbsoluteTolerance))
+    {
+      field.RelativeTolerance = this->Options.RelativeTolerance;
+      field.AbsoluteTolerance = this->Options.AbsoluteTolerance;
+    }
+  }
+}
+
+template <typename Receiver>
+int DirectRun<Receiver>::Present() const
+{
+  int count = 0;
+  for (const DirectField& field : this->State->Fields)
+  {
+    count += field.Empty() ? 0 : 1;
+  }
+  return count;
+}
+
+/// Kinds' errors are independent, but for the bounds on what they left out: those add up.
+template <typename Receiver>
+void DirectRun<Receiver>::Combine(
+  std::size_t receiver, double* values, double* errors, double& dropped) const
+{
+  std::fill_n(values, this->Bands, 0.0);
+  std::fill_n(errors, this->Bands, 0.0);
+  dropped = 0.0;
+  const bool several = this->Present() > 1;
+  for (const DirectField& field : this->State->Fields)
+  {
+    if (field.Empty())
+    {
+      continue;
+    }
+    const double part =
+      field.Dropped.empty() ? 0.0 : static_cast<double>(field.Dropped[receiver]);
+    dropped += part;
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      const std::size_t at = receiver * this->Bands + b;
+      values[b] += field.Value[at];
+      const double own = several ? std::max(0.0, field.Error[at] - part) : field.Error[at];
+      errors[b] = several ? std::hypot(errors[b], own) : own;
+    }
+  }
+  for (std::size_t b = 0; b < this->Bands && several; ++b)
+  {
+    errors[b] += dropped;
+  }
+}
+
+template <typename Receiver>
+void DirectRun<Receiver>::Record(std::size_t kind, ConvergenceRecord* record)
+{
+  if (!record)
+  {
+    return;
+  }
+  DirectRound round;
+  std::vector<double> values(this->Bands), errors(this->Bands);
+  double dropped = 0.0;
+  const std::vector<Receiver>& mine = this->Mine();
+  for (std::size_t i = 0; i < mine.size(); ++i)
+  {
+    const double weight = WeightOf(mine[i]);
+    this->Combine(i, values.data(), errors.data(), dropped);
+    round.Weight += weight * static_cast<double>(this->Bands);
+    for (std::size_t b = 0; b < this->Bands; ++b)
+    {
+      round.Value += weight * values[b];
+      round.Error += weight * errors[b];
+    }
+  }
+  round.Seconds = record->Elapsed();
+  round.Rays = static_cast<double>(this->State->Rays);
+  for (const auto& made : this->Kinds)
+  {
+    round.Rays += made ? static_cast<double>(made->Rays()) : 0.0;
+  }
+  this->Rounds[kind].push_back(round);
+}
+
+template <typename Receiver>
+DirectResult DirectRun<Receiver>::Result(ConvergenceRecord* record)
+{
+  static constexpr const char* stages[DirectKinds] = { "direct light", "area lights", "sky" };
+  DirectResult result;
+  result.Bands = static_cast<int>(this->Bands);
+  const std::size_t n = this->Mine().size();
+  result.Irradiance.assign(n * this->Bands, 0.0);
+  result.Error = result.Irradiance;
+  std::vector<double> dropped(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    this->Combine(
+      i, &result.Irradiance[i * this->Bands], &result.Error[i * this->Bands], dropped[i]);
+    result.DroppedPeak = std::max(result.DroppedPeak, dropped[i]);
+    result.DroppedMean += dropped[i];
+  }
+  for (std::size_t k = 0; k < DirectKinds; ++k)
+  {
+    this->State->Rays += this->Kinds[k] ? this->Kinds[k]->Rays() : 0;
+    this->Kinds[k].reset();
+  }
+  result.Rays = this->State->Rays - this->RaysBefore;
+  const Communicator* ranks = this->Options.Ranks;
+  double most[DirectKinds + 2] = { this->State->Fields[0].Peak, this->State->Fields[1].Peak,
+    this->State->Fields[2].Peak, result.DroppedPeak, this->TimedOut ? 1.0 : 0.0 };
+  if (ranks)
+  {
+    result.Irradiance = this->Share->Gather(result.Irradiance, this->Bands);
+    result.Error = this->Share->Gather(result.Error, this->Bands);
+    dropped = this->Share->Gather(dropped, 1);
+    ranks->Largest(most, DirectKinds + 2);
+    ranks->Sum(&result.DroppedMean, 1);
+    ranks->Sum(&result.Rays, 1);
+  }
+  result.PeakUnshadowed = most[0] + most[1] + most[2];
+  result.DroppedPeak = most[DirectKinds];
+  result.TimedOut = most[DirectKinds + 1] > 0.0;
+  result.DroppedMean /= static_cast<double>(std::max<std::size_t>(1, this->All.size()));
+  if (result.DroppedPeak > 0.0)
+  {
+    result.Dropped.assign(dropped.begin(), dropped.end());
+  }
+  const bool ambient = Compiled(Effect::GlobalAmbient) && !this->Geometry.GlobalAmbient.empty() && this->Options.OnlyLight < 0;
+  for (std::size_t at = 0; at < result.Irradiance.size() && ambient; ++at)
+  {
+    result.Irradiance[at] += this->Geometry.GlobalAmbient[at % this->Bands];
+  }
+  for (std::size_t k = 0; k < DirectKinds && record; ++k)
+  {
+    AddRounds(ranks, this->Rounds[k], stages[k], *record);
+  }
+  return result;
+}
+
+template class DirectRun<Patch>;
+template class DirectRun<SurfacePoint>;
+
+} // namespace radiometry
