@@ -3,6 +3,7 @@
 
 #include "RadiometricJob.h"
 #include "RadiometricResults.h"
+#include "radiometry/irradiance/IrradianceCache.h"
 #include "radiometry/irradiance/IrradianceSimulation.h"
 
 #include "vtkObjectFactory.h"
@@ -13,6 +14,24 @@
 
 vtkStandardNewMacro(vtkIrradianceFilter);
 
+vtkIrradianceFilter::vtkIrradianceFilter()
+  : Cache(std::make_shared<radiometry::IrradianceCache>())
+{
+}
+
+vtkIrradianceFilter::~vtkIrradianceFilter() = default;
+
+void vtkIrradianceFilter::ReleaseCache()
+{
+  this->Cache->Release();
+}
+
+double vtkIrradianceFilter::GetCacheMemory()
+{
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  return static_cast<double>(this->Cache->MemoryBytes()) / mebibyte;
+}
+
 void vtkIrradianceFilter::Simulate(Job& job, Result& result)
 {
   radiometry::IrradianceOptions options;
@@ -21,6 +40,7 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
   options.TimeBudget = job.TimeBudget;
   options.PilotOnly = job.PilotOnly;
   options.Threads = job.Threads;
+  options.MemoryLimit = job.Memory;
   options.Ranks = job.Ranks;
   options.Cells = job.WantCells;
   options.Switches = job.Switches;
@@ -32,8 +52,13 @@ void vtkIrradianceFilter::Simulate(Job& job, Result& result)
     vtkWarningMacro("RefineShadowBoundaries has no effect with SampleLocation Points: values are "
                     "wanted at the points that there are.");
   }
-  radiometry::IrradianceResult computed =
-    radiometry::SimulateIrradiance(job.Scene, job.Points, options, job.Progress);
+  if (!this->CacheResults || this->CachedFor != job.Ranks)
+  {
+    this->Cache->Release();
+  }
+  this->CachedFor = job.Ranks;
+  radiometry::IrradianceResult computed = radiometry::SimulateIrradiance(job.Scene, job.Points,
+    options, job.Progress, this->CacheResults ? this->Cache.get() : nullptr);
 
   static const char* const arrays[2] = { "Irradiance", "IrradianceBack" };
   for (int side = 0; side < 2; ++side)
@@ -88,11 +113,13 @@ void vtkIrradianceFilter::CopyMembers(vtkRadiometricAlgorithm* from)
   auto* other = vtkIrradianceFilter::SafeDownCast(from);
   this->RefineShadowBoundaries = other->RefineShadowBoundaries;
   this->MaximumPiecesPerCell = other->MaximumPiecesPerCell;
+  this->CacheResults = other->CacheResults;
 }
 
 void vtkIrradianceFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "RefineShadowBoundaries: " << this->RefineShadowBoundaries << '\n'
-     << indent << "MaximumPiecesPerCell: " << this->MaximumPiecesPerCell << '\n';
+     << indent << "MaximumPiecesPerCell: " << this->MaximumPiecesPerCell << '\n'
+     << indent << "CacheResults: " << this->CacheResults << '\n';
 }

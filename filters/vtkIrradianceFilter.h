@@ -4,6 +4,13 @@
 
 #include "vtkRadiometricFilter.h"
 
+#include <memory>
+
+namespace radiometry
+{
+class IrradianceCache;
+}
+
 /// Direct irradiance on each cell (or point) of a surface.
 ///   Reads   lights: LightType, Intensity [W/sr or W/m^2], Direction, ...   (docs/arrays.md)
 ///   Writes  Irradiance, IrradianceError; where surfaces are two-sided also IrradianceBack,
@@ -38,18 +45,36 @@ public:
   vtkSetClampMacro(MaximumPiecesPerCell, int, 1, 1000000);
   vtkGetMacro(MaximumPiecesPerCell, int);
   ///@}
+  ///@{
+  /// Whether values, and what visibility was asked of, are kept for the next execution. Default on:
+  /// on the same surface, lights and options a finer tolerance goes on from the values that there
+  /// are, and a coarser one returns them; on the same geometry moving or dimming a light re-uses its
+  /// visibility. Such values may differ from those of a fresh filter within their errors. What is
+  /// kept counts towards MemoryLimit and is freed when the input changes.
+  vtkSetMacro(CacheResults, bool);
+  vtkGetMacro(CacheResults, bool);
+  vtkBooleanMacro(CacheResults, bool);
+  ///@}
+  /// Frees what was kept.
+  void ReleaseCache();
+  /// What is kept now [MiB].
+  double GetCacheMemory();
 
 protected:
-  vtkIrradianceFilter() = default;
-  ~vtkIrradianceFilter() override = default;
+  vtkIrradianceFilter();
+  ~vtkIrradianceFilter() override;
 
   void CopyMembers(vtkRadiometricAlgorithm* from) override;
   void Simulate(Job& job, Result& result) override;
 
   bool RefineShadowBoundaries = false;
   int MaximumPiecesPerCell = 1000;
+  bool CacheResults = true;
 
 private:
+  std::shared_ptr<radiometry::IrradianceCache> Cache;
+  const void* CachedFor = nullptr; // the ranks that share what is kept
+
   vtkIrradianceFilter(const vtkIrradianceFilter&) = delete;
   void operator=(const vtkIrradianceFilter&) = delete;
 };

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/formfactor/GeometryKey.h"
 
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace radiometry
 {
-
-void ContentKey::AddBytes(const void* data, std::size_t bytes)
-{
-  const auto* from = static_cast<const unsigned char*>(data);
-  std::uint64_t word = 0;
-  for (; bytes >= sizeof(word); bytes -= sizeof(word), from += sizeof(word))
-  {
-    std::memcpy(&word, from, sizeof(word));
-    this->Add(word);
-  }
-  if (bytes > 0)
-  {
-    word = 0;
-    std::memcpy(&word, from, bytes);
-    this->Add(word);
-  }
-}
 
 ContentKey KeyOfGeometry(const Scene& scene)
 {

@@ -196,12 +196,17 @@ bool DirectKind::Run(std::vector<std::uint32_t> items, const Limits& limits,
   {
     this->ForReceivers(item, [&](std::uint32_t i) { this->Pending[i] = 0; });
   }
+  const bool timedOut = expired || this->NoTime;
   for (const std::uint32_t item : todo)
   {
     this->ForReceivers(item, [&](std::uint32_t i) {
-      if (!expired && !this->NoTime)
+      if (!timedOut)
       {
         own.State[i] = static_cast<std::uint8_t>(own.State[i] & ~DirectField::Unfinished);
+      }
+      else if ((own.State[i] & DirectField::Unfinished) != 0 || this->Fresh(i))
+      {
+        this->Pending[i] = 1;
       }
     });
   }
@@ -211,7 +216,7 @@ bool DirectKind::Run(std::vector<std::uint32_t> items, const Limits& limits,
     cost->Sum += s;
     cost->Squares += s * s;
   }
-  return !expired && !this->NoTime;
+  return !timedOut;
 }
 
 double DirectKind::Before(std::size_t receiver, std::size_t band) const

@@ -22,6 +22,9 @@ constexpr double PilotShare = 0.08;
 constexpr std::size_t LeastPilot = 32;
 /// ... unless what it says is sure enough before: standard deviation of the mean, relative.
 constexpr double EnoughDoubt = 0.12;
+constexpr std::size_t FewestPilot = 4;
+constexpr double FewDoubt = 0.3;
+constexpr double LeastSeconds = 0.02;
 /// Seconds that a value takes which is only bounded, on one thread.
 constexpr double BlindSeconds = 0.4e-6;
 /// Clusters are made in space for so many lights and more, were nothing in the way.
@@ -328,10 +331,16 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
   ItemCost cost;
   const std::size_t enough =
     std::max(LeastPilot, static_cast<std::size_t>(PilotShare * static_cast<double>(items.size())));
-  std::size_t next = std::max<std::size_t>(16, 4 * workers);
-  while (done < items.size() && cost.Items < enough &&
-    !(cost.Items >= LeastPilot && cost.Doubt() < EnoughDoubt) &&
-    !(most > 0.0 && cost.Items > 0 && clock.Elapsed() > most))
+  const auto sure = [&] {
+    // Of few and costly items fewer must do.
+    const bool tenth = cost.Items >= FewestPilot && 10 * done >= items.size() &&
+      cost.Doubt() < FewDoubt && clock.Elapsed() > LeastSeconds;
+    return cost.Items >= enough || tenth ||
+      (cost.Items >= LeastPilot && cost.Doubt() < EnoughDoubt) ||
+      (most > 0.0 && cost.Items > 0 && clock.Elapsed() > most);
+  };
+  std::size_t next = std::max<std::size_t>(4, workers);
+  while (done < items.size() && !sure())
   {
     const std::vector<std::uint32_t> chunk = some(std::min(next, enough));
     done += chunk.size();

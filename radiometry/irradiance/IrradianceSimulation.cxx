@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiometry/irradiance/IrradianceSimulation.h"
 
+#include "radiometry/irradiance/IrradianceCache.h"
+#include "radiometry/irradiance/IrradianceCourse.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
 
 namespace radiometry
 {
+
 std::vector<Patch> MakePatches(const Scene& scene, int side)
 {
   std::vector<Patch> patches;
@@ -100,8 +106,91 @@ void AddDropped(double bound, std::initializer_list<std::array<FieldValues, 2>*>
   }
 }
 
+namespace
+{
+
+/// Takes the values out of the cache that all ranks can go on from, and puts them back at the end,
+/// or when the user stops the run.
+class KeptValues
+{
+public:
+  KeptValues(IrradianceCache* cache, const ContentKey& key, const IrradianceOptions& options)
+    : Cache(cache)
+    , Key(key)
+    , Options(options)
+  {
+    this->Values = cache ? cache->Take(key) : nullptr;
+    double missing = this->Values ? 0.0 : 1.0;
+    if (options.Ranks)
+    {
+      options.Ranks->Largest(&missing, 1);
+    }
+    if (missing > 0.0)
+    {
+      this->Values = std::make_unique<IrradianceKept>();
+    }
+  }
+  void Keep()
+  {
+    if (this->Cache)
+    {
+      this->Cache->Keep(this->Key, std::move(this->Values));
+      if (this->Options.MemoryLimit > 0 && this->Cache->MemoryBytes() > this->Options.MemoryLimit)
+      {
+        this->Cache->Release();
+      }
+    }
+  }
+  IrradianceKept& operator*() { return *this->Values; }
+
+private:
+  IrradianceCache* Cache;
+  ContentKey Key;
+  const IrradianceOptions& Options;
+  std::unique_ptr<IrradianceKept> Values;
+};
+
+DirectOptions DirectOf(const IrradianceOptions& options, const EffectPlan& plan)
+{
+  DirectOptions direct;
+  direct.RelativeTolerance = options.RelativeTolerance;
+  direct.AbsoluteTolerance = options.AbsoluteTolerance;
+  direct.Occlusion = plan.Simulates(Effect::Occlusion);
+  direct.SpotShape = plan.Simulates(Effect::SpotShape);
+  direct.Attenuation = plan.Simulates(Effect::Attenuation);
+  direct.Environment = plan.Simulates(Effect::Environment);
+  direct.Transmission = plan.Simulates(Effect::Transmission);
+  direct.Emission = plan.Simulates(Effect::Emission);
+  const auto forced = [&](Effect effect) { return plan[effect].Wish == EffectSwitch::On; };
+  direct.DropSky = !forced(Effect::Environment);
+  direct.DropAreas = !forced(Effect::Emission) && !forced(Effect::AreaLights);
+  direct.Dropped = plan.DroppedBound();
+  direct.Threads = options.Threads;
+  direct.Ranks = options.Ranks;
+  return direct;
+}
+
+std::string OutcomeOf(bool timedOut, const IrradianceResult& result)
+{
+  std::string outcome = timedOut
+    ? "the time budget ended the run before every value met its tolerance"
+    : "every value met its tolerance or is as fine as can be";
+  if (result.Pieces.TimedOut)
+  {
+    outcome += "; no time was left to cut all cells along the edges of shadows";
+  }
+  if (result.Pieces.Full > 0)
+  {
+    outcome += "; " + std::to_string(result.Pieces.Full) +
+      " cells have more shadow edges than the limit of pieces let them be cut along";
+  }
+  return outcome;
+}
+
+} // namespace
+
 IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<SurfacePoint>& points,
-  const IrradianceOptions& options, Monitor* monitor)
+  const IrradianceOptions& options, Monitor* monitor, IrradianceCache* cache)
 {
   IrradianceResult result;
   Report(monitor, 0.0, "planning");
@@ -119,107 +208,68 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
   SceneEffects effects(given, options.Switches, abilities, points, options.Cells);
   EffectPlan& plan = effects.Plan();
   const Scene& scene = effects.Simulated();
-  const OcclusionScene occluders(scene);
-
-  DirectOptions direct;
-  direct.RelativeTolerance = options.RelativeTolerance;
-  direct.AbsoluteTolerance = options.AbsoluteTolerance;
-  direct.Occlusion = plan.Simulates(Effect::Occlusion);
-  direct.SpotShape = plan.Simulates(Effect::SpotShape);
-  direct.Attenuation = plan.Simulates(Effect::Attenuation);
-  direct.Environment = plan.Simulates(Effect::Environment);
-  direct.Transmission = plan.Simulates(Effect::Transmission);
-  direct.Emission = plan.Simulates(Effect::Emission);
-  direct.Threads = options.Threads;
-  direct.Ranks = options.Ranks;
-
+  IrradianceCache none;
+  IrradianceCache& store = cache ? *cache : none;
+  const OcclusionScene& occluders = store.Occluders(scene);
+  const DirectOptions direct = DirectOf(options, plan);
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;
-  bool timedOut = false;
-  std::int64_t rays = 0;
-  const auto limit = [&] {
-    if (options.TimeBudget > 0.0)
+  ContentKey key;
+  if (cache)
+  {
+    key = KeyOfDirectLight(store.GeometryKey(), scene, points, direct);
+    key.Add(static_cast<std::uint64_t>(sides + (options.Cells ? 2 : 0) +
+      (options.RefineShadowBoundaries ? 4 : 0) + (options.LightVisibility ? 8 : 0)));
+    key.Add(static_cast<std::uint64_t>(options.PiecesPerCell));
+  }
+  KeptValues kept(cache, key, options);
+  // What was done is kept where the user stops the run; not of several ranks, of which each may have
+  // stopped elsewhere.
+  const auto stopped = [&] {
+    if (!options.Ranks)
     {
-      direct.SecondsLeft = std::max(1e-9, options.TimeBudget - result.Convergence.Elapsed());
+      kept.Keep();
     }
   };
-  const double end = options.LightVisibility ? 0.5 : 0.98;
-  const double middle = options.Cells ? (points.empty() ? end : 0.8 * end) : 0.02;
-  if (options.Cells)
+  std::int64_t rays = 0;
+  bool timedOut = false;
+  try
   {
-    std::vector<Patch> patches;
-    std::size_t items = scene.Cells;
-    double begin = 0.02;
-    if (options.RefineShadowBoundaries)
+    IrradianceCourse course(
+      scene, occluders, points, options, direct, sides, *kept, result, monitor);
+    result.Cost.PredictedSeconds = course.Pilot();
+    result.Cost.PredictedAt = result.Convergence.Elapsed();
+    if (monitor)
     {
-      begin = 0.3 * middle;
-      limit();
-      result.Pieces = CutAlongShadows(scene, occluders, direct, sides == 2, options.PiecesPerCell,
-        { monitor, 0.02, begin, "cutting along shadows" });
-      patches = MakePatches(scene, result.Pieces, sides == 2);
-      items = result.Pieces.Size();
+      monitor->Predicted(result.Cost.PredictedSeconds);
     }
-    else
+    if (!options.PilotOnly)
     {
-      patches = MakePatches(scene, 0);
-      const std::vector<Patch> backs = sides == 2 ? MakePatches(scene, 1) : std::vector<Patch>();
-      patches.insert(patches.end(), backs.begin(), backs.end());
+      course.Finish();
     }
-    limit();
-    const DirectResult r = ComputeDirectIrradiance(scene, occluders, patches, direct,
-      { monitor, begin, middle, "direct light" }, &result.Convergence);
-    // Without time for shadows all errors are of one kind and add up.
-    const std::vector<float> common = r.TimedOut
-      ? std::vector<float>(patches.size(), std::numeric_limits<float>::max())
-      : r.Dropped;
-    for (int side = 0; side < sides; ++side)
-    {
-      result.Cells[side] =
-        AverageOver(items, scene.Optics.Bands, patches, side, r.Irradiance, r.Error, common);
-    }
-    timedOut = r.TimedOut;
-    rays = r.Rays;
-    result.DroppedPeak = r.DroppedPeak;
-    result.DroppedMean = r.DroppedMean;
-    if (options.LightVisibility)
-    {
-      limit();
-      result.CellVisibility = FindLightVisibility(scene, occluders, patches, items, direct,
-        { monitor, end, points.empty() ? 0.98 : 0.8, "visibility of lights" });
-    }
+    rays = course.Rays;
+    timedOut = course.TimedOut;
   }
-  for (int side = 0; side < sides && !points.empty(); ++side)
+  catch (const Aborted&)
   {
-    std::vector<SurfacePoint> facing = points;
-    for (SurfacePoint& p : facing)
-    {
-      p.Normal = side == 1 ? -p.Normal : p.Normal;
-    }
-    limit();
-    DirectResult r = ComputeDirectIrradiance(scene, occluders, facing, direct,
-      { monitor, middle + (end - middle) * side / sides,
-        middle + (end - middle) * (side + 1) / sides, "direct light at points" },
-      side == 0 ? &result.Convergence : nullptr);
-    timedOut = timedOut || r.TimedOut;
-    rays += r.Rays;
-    result.DroppedPeak = std::max(result.DroppedPeak, r.DroppedPeak);
-    result.DroppedMean = std::max(result.DroppedMean, r.DroppedMean);
-    result.Points[side] = { std::move(r.Irradiance), std::move(r.Error) };
-    if (options.LightVisibility)
-    {
-      limit();
-      result.PointVisibility[side] = FindLightVisibility(
-        scene, occluders, facing, direct, { monitor, 0.8, 0.98, "visibility of lights" });
-    }
+    stopped();
+    throw;
   }
+  if (options.PilotOnly)
+  {
+    kept.Keep();
+    result.Cost.Seconds = result.Convergence.Elapsed();
+    result.Outcome = "the pilot ended";
+    return result;
+  }
+
   EffectDecision& occlusion = plan[Effect::Occlusion];
   occlusion.Seconds = result.Convergence.Elapsed();
   if (occlusion.Simulated)
   {
     const std::size_t values = (options.Cells ? scene.Cells : 0) + points.size();
-    occlusion.Why +=
-      "; " + std::to_string(rays) + " rays for " + std::to_string(values) + " cells and points";
+    occlusion.Why += "; " + std::to_string(rays) + " rays for " + std::to_string(values) +
+      " cells and points";
   }
-
   for (int side = 0; side < 2; ++side)
   {
     for (FieldValues* values : { &result.Cells[side], &result.Points[side] })
@@ -231,19 +281,11 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
   AddDropped(plan.DroppedBound(), { &result.Cells, &result.Points });
   effects.Bound(GreatestValue({ &result.Cells, &result.Points }));
   result.Effects = plan.Decisions();
+  kept.Keep();
   result.Cost.Seconds = result.Convergence.Elapsed();
   result.Cost.Samples = rays;
-  result.Outcome = timedOut ? "the time budget ended the run before every value met its tolerance"
-                            : "every value met its tolerance or is as fine as can be";
-  if (result.Pieces.TimedOut)
-  {
-    result.Outcome += "; no time was left to cut all cells along the edges of shadows";
-  }
-  if (result.Pieces.Full > 0)
-  {
-    result.Outcome += "; " + std::to_string(result.Pieces.Full) +
-      " cells have more shadow edges than the limit of pieces let them be cut along";
-  }
+  result.Cost.Bytes = cache ? cache->MemoryBytes() : 0;
+  result.Outcome = OutcomeOf(timedOut, result);
   Report(monitor, 1.0, "done");
   return result;
 }

@@ -18,6 +18,8 @@
 namespace radiometry
 {
 
+class IrradianceCache;
+
 struct IrradianceOptions
 {
   double RelativeTolerance = 0.01;
@@ -30,6 +32,7 @@ struct IrradianceOptions
   bool LightVisibility = false;        // how much of each light arrives, too
   bool PilotOnly = false; // end where the cost of the run is known: Cost.PredictedSeconds
   std::vector<EffectSwitch> Switches = std::vector<EffectSwitch>(EffectCount);
+  std::size_t MemoryLimit = 0; // bytes; what is kept for the next run counts; 0: no limit
   const Communicator* Ranks = nullptr; // that share the work; null: this process alone
 };
 
@@ -57,8 +60,10 @@ struct IrradianceResult
 };
 
 /// Direct light on a scene: plans the effects, computes what it calls for, bounds what it left out.
+/// `cache`: what an earlier run left is gone on from, and this one's is left there; null: nothing is.
+/// With PilotOnly the result holds its cost alone.
 IrradianceResult SimulateIrradiance(const Scene& scene, const std::vector<SurfacePoint>& points,
-  const IrradianceOptions& options, Monitor* monitor = nullptr);
+  const IrradianceOptions& options, Monitor* monitor = nullptr, IrradianceCache* cache = nullptr);
 
 /// One patch for each receiving triangle, of side 0 or 1; side 1 only where cells are two-sided.
 std::vector<Patch> MakePatches(const Scene& scene, int side);
