@@ -54,11 +54,9 @@ protected:
     const std::size_t first = i * this->Bands;
     static thread_local std::vector<double> before;
     before.resize(this->Bands);
-    double least = 1e300;
     for (std::size_t b = 0; b < this->Bands; ++b)
     {
       before[b] = this->Before(i, b);
-      least = std::min(least, before[b]);
     }
     AreaEffort effort;
     effort.RelativeTolerance = this->Options.RelativeTolerance;

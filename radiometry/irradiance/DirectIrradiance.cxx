@@ -71,7 +71,8 @@ DirectResult Compute(const Scene& scene, const OcclusionScene& occluders,
   making.End = stage.Begin + 0.1 * (stage.End - stage.Begin);
   StageProgress running = stage;
   running.Begin = making.End;
-  DirectRun<Receiver> run(scene, occluders, receivers, options, making);
+  DirectRun<Receiver> run(
+    scene, occluders, receivers, options, making, nullptr, record != nullptr);
   run.Finish(running, record,
     options.SecondsLeft > 0.0 ? std::max(1e-9, options.SecondsLeft - clock.Elapsed()) : 0.0);
   DirectResult result = run.Result(record);

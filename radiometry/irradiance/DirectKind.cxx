@@ -127,7 +127,7 @@ std::vector<std::uint32_t> DirectKind::Waiting() const
 }
 
 bool DirectKind::Run(std::vector<std::uint32_t> items, const Limits& limits,
-  const StageProgress& stage, ItemCost* cost, const std::function<void()>& ended)
+  const StageProgress& stage, ItemCost* cost, const Tally& tally)
 {
   DirectField& own = this->Own();
   std::atomic<bool> expired{ false };
@@ -138,6 +138,7 @@ bool DirectKind::Run(std::vector<std::uint32_t> items, const Limits& limits,
   std::iota(places.begin(), places.end(), 0u);
   std::vector<std::uint32_t> todo = items;
   std::vector<std::uint8_t> again;
+  std::vector<Change> changes;
   double done = 0.0;
   for (int round = 0; round < rounds && this->GoesOn(!todo.empty(), expired); ++round)
   {
@@ -147,6 +148,27 @@ bool DirectKind::Run(std::vector<std::uint32_t> items, const Limits& limits,
     part.End = stage.Begin + next * (stage.End - stage.Begin);
     done = next;
     again.assign(todo.size(), 0);
+    changes.assign(tally ? todo.size() : 0, {});
+    const std::int64_t raysBefore = this->RayCount;
+    const auto work = [&](std::size_t k, Haste haste) {
+      const auto add = [&](double sign) {
+        this->ForReceivers(todo[k], [&](std::uint32_t i) {
+          double value = 0.0, error = 0.0;
+          tally(i, value, error);
+          changes[k].Value += sign * value;
+          changes[k].Error += sign * error;
+        });
+      };
+      if (tally)
+      {
+        add(-1.0);
+      }
+      again[k] = this->Work(todo[k], round, haste) ? 1 : 0;
+      if (tally)
+      {
+        add(1.0);
+      }
+    };
     ParallelFor(
       todo.size(), this->Options.Threads, part,
       [&](std::size_t k) {
@@ -168,11 +190,11 @@ bool DirectKind::Run(std::vector<std::uint32_t> items, const Limits& limits,
         }
         if (!cost)
         {
-          again[k] = this->Work(todo[k], round, haste) ? 1 : 0;
+          work(k, haste);
           return;
         }
         const ConvergenceRecord clock;
-        again[k] = this->Work(todo[k], round, haste) ? 1 : 0;
+        work(k, haste);
         seconds[places[k]] += clock.Elapsed();
       },
       this->Guess(round, limits.Hurried));
@@ -186,9 +208,17 @@ bool DirectKind::Run(std::vector<std::uint32_t> items, const Limits& limits,
     }
     todo.resize(kept);
     places.resize(kept);
-    if (ended)
+    if (tally)
     {
-      ended();
+      this->Made.resize(std::max(this->Made.size(), static_cast<std::size_t>(round) + 1));
+      Change& made = this->Made[static_cast<std::size_t>(round)];
+      for (const Change& change : changes)
+      {
+        made.Value += change.Value;
+        made.Error += change.Error;
+      }
+      made.Rays += static_cast<double>(this->RayCount - raysBefore);
+      made.Seconds = limits.Clock ? limits.Clock->Elapsed() : 0.0;
     }
   }
   // Whatever is left then was as far as rounds go, unless the time was over.

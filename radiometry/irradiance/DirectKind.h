@@ -80,12 +80,23 @@ public:
     bool Hurried = false; // rounds begin with less effort
     const ConvergenceRecord* Clock = nullptr;
   };
-  /// Works on items until they are good enough. `ended`: called after each round.
-  /// Returns false when the time was over.
+  /// Weighted value and error of a receiver, summed over the bands, with what it has so far.
+  using Tally = std::function<void(std::uint32_t receiver, double& value, double& error)>;
+  /// Works on items until they are good enough. `tally`: by which Changes() are told; empty: they are
+  /// not. Returns false when the time was over.
   bool Run(std::vector<std::uint32_t> items, const Limits& limits, const StageProgress& stage,
-    ItemCost* cost, const std::function<void()>& ended);
+    ItemCost* cost, const Tally& tally);
 
   std::int64_t Rays() const { return this->RayCount; }
+  /// What each round changed, whichever items came first.
+  struct Change
+  {
+    double Value = 0.0;
+    double Error = 0.0;
+    double Rays = 0.0;
+    double Seconds = 0.0; // on the clock of the limits, when it last ended
+  };
+  const std::vector<Change>& Changes() const { return this->Made; }
 
   /// True when a receiver's value in a field may have to be computed, or made finer.
   static bool Needed(const DirectFields& fields, int kind, std::size_t receiver, int bands,
@@ -137,6 +148,7 @@ protected:
 
 private:
   int Kind;
+  std::vector<Change> Made;
   DirectFields& Fields;
   std::vector<std::uint8_t> Pending; // by receiver
 };

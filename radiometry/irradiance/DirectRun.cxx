@@ -17,7 +17,7 @@ namespace radiometry
 namespace
 {
 
-/// Of the items, and at least so many, are looked at by a pilot ...
+/// Of the items, and at least so many, are looked at by a pilot, of few items no more than a third ...
 constexpr double PilotShare = 0.08;
 constexpr std::size_t LeastPilot = 32;
 /// ... unless what it says is sure enough before: standard deviation of the mean, relative.
@@ -170,13 +170,14 @@ std::size_t DirectState::MemoryBytes() const
 template <typename Receiver>
 DirectRun<Receiver>::DirectRun(const Scene& scene, const OcclusionScene& occluders,
   const std::vector<Receiver>& receivers, const DirectOptions& options,
-  const StageProgress& stage, DirectState* kept)
+  const StageProgress& stage, DirectState* kept, bool recorded)
   : Geometry(scene)
   , Occluders(occluders)
   , All(receivers)
   , Bands(static_cast<std::size_t>(scene.Optics.Bands))
   , Options(options)
   , State(kept ? kept : &this->Local)
+  , Recorded(recorded)
 {
   Report(stage.Listener, stage.Begin, stage.Name);
   this->RaysBefore = this->State->Rays;
@@ -317,6 +318,7 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
   };
   const auto workers = static_cast<std::size_t>(this->Workers());
   DirectKind::Limits limits;
+  const DirectKind::Tally tally = this->TallyOf(kind);
   std::size_t done = 0;
   ItemCost warm; // what the first ones take is not what the others do
   for (const std::size_t count : { std::size_t{ 1 }, 2 * workers })
@@ -325,12 +327,12 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
     {
       const std::vector<std::uint32_t> chunk = some(count);
       done += chunk.size();
-      work.Run(chunk, limits, stage, &warm, {});
+      work.Run(chunk, limits, stage, &warm, tally);
     }
   }
   ItemCost cost;
-  const std::size_t enough =
-    std::max(LeastPilot, static_cast<std::size_t>(PilotShare * static_cast<double>(items.size())));
+  const std::size_t enough = std::min((items.size() + 2) / 3,
+    std::max(LeastPilot, static_cast<std::size_t>(PilotShare * static_cast<double>(items.size()))));
   const auto sure = [&] {
     // Of few and costly items fewer must do.
     const bool tenth = cost.Items >= FewestPilot && 10 * done >= items.size() &&
@@ -342,9 +344,9 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
   std::size_t next = std::max<std::size_t>(4, workers);
   while (done < items.size() && !sure())
   {
-    const std::vector<std::uint32_t> chunk = some(std::min(next, enough));
+    const std::vector<std::uint32_t> chunk = some(std::min(next, enough - cost.Items));
     done += chunk.size();
-    work.Run(chunk, limits, stage, &cost, {});
+    work.Run(chunk, limits, stage, &cost, tally);
     next *= 2;
   }
   if (cost.Items == 0)
@@ -376,7 +378,7 @@ double DirectRun<Receiver>::Pilot(const StageProgress& stage, double most)
 
 template <typename Receiver>
 void DirectRun<Receiver>::Finish(
-  const StageProgress& stage, ConvergenceRecord* record, double seconds)
+  const StageProgress& stage, const ConvergenceRecord* record, double seconds)
 {
   const ConvergenceRecord clock;
   double known = 0.0;
@@ -419,10 +421,14 @@ void DirectRun<Receiver>::Finish(
       std::stable_sort(items.begin(), items.end(),
         [](std::uint32_t a, std::uint32_t b) { return Hash64(a) < Hash64(b); });
     }
-    if (!this->Kinds[k]->Run(std::move(items), limits, part, nullptr,
-          [&] { this->Record(k, record); }))
+    const double begun = record ? record->Elapsed() - clock.Elapsed() : 0.0;
+    if (!this->Kinds[k]->Run(std::move(items), limits, part, nullptr, this->TallyOf(k)))
     {
       this->TimedOut = true;
+    }
+    if (record && this->Recorded)
+    {
+      this->AddUp(k, *record, begun);
     }
     DirectField& field = this->State->Fields[k];
     if (!this->TimedOut &&
@@ -449,14 +455,15 @@ int DirectRun<Receiver>::Present() const
 /// Kinds' errors are independent, but for the bounds on what they left out: those add up.
 template <typename Receiver>
 void DirectRun<Receiver>::Combine(
-  std::size_t receiver, double* values, double* errors, double& dropped) const
+  std::size_t receiver, std::size_t kinds, double* values, double* errors, double& dropped) const
 {
   std::fill_n(values, this->Bands, 0.0);
   std::fill_n(errors, this->Bands, 0.0);
   dropped = 0.0;
   const bool several = this->Present() > 1;
-  for (const DirectField& field : this->State->Fields)
+  for (std::size_t k = 0; k < kinds; ++k)
   {
+    const DirectField& field = this->State->Fields[k];
     if (field.Empty())
     {
       continue;
@@ -478,35 +485,61 @@ void DirectRun<Receiver>::Combine(
   }
 }
 
+/// Value and error of a receiver by the kinds up to this one, times its weight.
 template <typename Receiver>
-void DirectRun<Receiver>::Record(std::size_t kind, ConvergenceRecord* record)
+DirectKind::Tally DirectRun<Receiver>::TallyOf(std::size_t kind) const
 {
-  if (!record)
+  if (!this->Recorded)
   {
-    return;
+    return {};
   }
-  DirectRound round;
-  std::vector<double> values(this->Bands), errors(this->Bands);
-  double dropped = 0.0;
+  return [this, kind](std::uint32_t i, double& value, double& error) {
+    static thread_local std::vector<double> values, errors;
+    values.resize(this->Bands);
+    errors.resize(this->Bands);
+    double dropped = 0.0;
+    this->Combine(i, kind + 1, values.data(), errors.data(), dropped);
+    const double weight = WeightOf(this->Mine()[i]);
+    value = weight * std::accumulate(values.begin(), values.end(), 0.0);
+    error = weight * std::accumulate(errors.begin(), errors.end(), 0.0);
+  };
+}
+
+/// Rows for the rounds that a kind has made: what there was when all items had gone that far.
+template <typename Receiver>
+void DirectRun<Receiver>::AddUp(std::size_t kind, const ConvergenceRecord& clock, double begun)
+{
+  DirectRound last;
+  const DirectKind::Tally tally = this->TallyOf(kind);
   const std::vector<Receiver>& mine = this->Mine();
   for (std::size_t i = 0; i < mine.size(); ++i)
   {
-    const double weight = WeightOf(mine[i]);
-    this->Combine(i, values.data(), errors.data(), dropped);
-    round.Weight += weight * static_cast<double>(this->Bands);
-    for (std::size_t b = 0; b < this->Bands; ++b)
-    {
-      round.Value += weight * values[b];
-      round.Error += weight * errors[b];
-    }
+    double value = 0.0, error = 0.0;
+    tally(static_cast<std::uint32_t>(i), value, error);
+    last.Value += value;
+    last.Error += error;
+    last.Weight += WeightOf(mine[i]) * static_cast<double>(this->Bands);
   }
-  round.Seconds = record->Elapsed();
-  round.Rays = static_cast<double>(this->State->Rays);
-  for (const auto& made : this->Kinds)
+  const std::vector<DirectKind::Change>& changes = this->Kinds[kind]->Changes();
+  std::vector<DirectRound> rounds(changes.size(), last);
+  for (std::size_t r = changes.size(); r-- > 1;)
   {
-    round.Rays += made ? static_cast<double>(made->Rays()) : 0.0;
+    rounds[r - 1].Value = rounds[r].Value - changes[r].Value;
+    rounds[r - 1].Error = rounds[r].Error - changes[r].Error;
   }
-  this->Rounds[kind].push_back(round);
+  double seconds = 0.0;
+  for (std::size_t r = 0; r < rounds.size(); ++r)
+  {
+    this->RaysSoFar += changes[r].Rays;
+    rounds[r].Rays = this->RaysSoFar;
+    rounds[r].Value = std::max(0.0, rounds[r].Value);
+    rounds[r].Error = std::max(0.0, rounds[r].Error);
+    // Rounds that the pilot alone had to make ended long ago: the rows' seconds rise.
+    const double ended = begun + changes[r].Seconds;
+    rounds[r].Seconds = ended > seconds && changes[r].Seconds > 0.0 ? ended : clock.Elapsed();
+    seconds = std::max(seconds, rounds[r].Seconds);
+  }
+  this->Rounds[kind] = std::move(rounds);
 }
 
 template <typename Receiver>
@@ -521,8 +554,8 @@ DirectResult DirectRun<Receiver>::Result(ConvergenceRecord* record)
   std::vector<double> dropped(n, 0.0);
   for (std::size_t i = 0; i < n; ++i)
   {
-    this->Combine(
-      i, &result.Irradiance[i * this->Bands], &result.Error[i * this->Bands], dropped[i]);
+    this->Combine(i, DirectKinds, &result.Irradiance[i * this->Bands],
+      &result.Error[i * this->Bands], dropped[i]);
     result.DroppedPeak = std::max(result.DroppedPeak, dropped[i]);
     result.DroppedMean += dropped[i];
   }

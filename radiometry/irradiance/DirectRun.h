@@ -19,17 +19,19 @@ class DirectRun
 {
 public:
   /// `kept`: where values are, and stay; those that meet the tolerance are not computed again. Null:
-  /// all is computed, and forgotten. All but `kept` must outlive this.
+  /// all is computed, and forgotten. `recorded`: Result() is asked for rows of a record. All but
+  /// `kept` must outlive this.
   DirectRun(const Scene& scene, const OcclusionScene& occluders,
     const std::vector<Receiver>& receivers, const DirectOptions& options,
-    const StageProgress& stage, DirectState* kept = nullptr);
+    const StageProgress& stage, DirectState* kept = nullptr, bool recorded = true);
   ~DirectRun();
 
   /// Seconds that the rest of the run will take, of this process. `most`: seconds that the pilot
   /// itself may take; 0: as long as it has to.
   double Pilot(const StageProgress& stage, double most = 0.0);
   /// Brings all values to the tolerance, or as far as `seconds` allow (0: no limit).
-  void Finish(const StageProgress& stage, ConvergenceRecord* record, double seconds = 0.0);
+  /// `record`: the clock of the rows; null: none.
+  void Finish(const StageProgress& stage, const ConvergenceRecord* record, double seconds = 0.0);
   /// What there is. Collective.
   DirectResult Result(ConvergenceRecord* record);
   /// Values that this process has to compute, or to make finer.
@@ -40,8 +42,10 @@ private:
   void MakeKinds(const StageProgress& stage);
   std::vector<std::uint32_t> Candidates(std::size_t kind) const;
   void PilotOf(std::size_t kind, const StageProgress& stage, double most);
-  void Record(std::size_t kind, ConvergenceRecord* record);
-  void Combine(std::size_t receiver, double* values, double* errors, double& dropped) const;
+  DirectKind::Tally TallyOf(std::size_t kind) const;
+  void AddUp(std::size_t kind, const ConvergenceRecord& clock, double begun);
+  void Combine(std::size_t receiver, std::size_t kinds, double* values, double* errors,
+    double& dropped) const;
   int Present() const;
   int Workers() const;
 
@@ -59,6 +63,8 @@ private:
   std::array<std::unique_ptr<DirectKind>, DirectKinds> Kinds;
   std::array<double, DirectKinds> Rest{}; // seconds that each will take
   std::array<std::vector<DirectRound>, DirectKinds> Rounds;
+  double RaysSoFar = 0.0; // of kinds that have ended
+  bool Recorded;
   std::int64_t RaysBefore = 0;
   bool TimedOut = false;
 };
