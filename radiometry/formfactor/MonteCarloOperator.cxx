@@ -104,6 +104,17 @@ void MonteCarloOperator::DoubleRays(
   this->Trace(rays, stage);
 }
 
+void MonteCarloOperator::AddRays(
+  const std::vector<std::int32_t>& rays, const StageProgress& stage)
+{
+  std::vector<std::int32_t> whole = rays;
+  for (std::int32_t& each : whole)
+  {
+    each -= each % Batches;
+  }
+  this->Trace(whole, stage);
+}
+
 void MonteCarloOperator::FindGains()
 {
   if (!this->Options.Paths)

@@ -50,6 +50,9 @@ public:
 
   /// Doubles the rays of the elements marked. Not thread-safe.
   void DoubleRays(const std::vector<std::uint8_t>& marked, const StageProgress& stage = {});
+  /// Adds rays to each element, so many as stated (rounded down to a multiple of the batches). Not
+  /// thread-safe.
+  void AddRays(const std::vector<std::int32_t>& rays, const StageProgress& stage = {});
   int Rays(std::size_t element) const { return this->RaysOf[element]; }
 
   std::size_t Size() const override { return this->RaysOf.size(); }

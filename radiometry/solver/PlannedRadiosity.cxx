@@ -165,6 +165,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   {
     kept.Load(options.LoadOperator, scene, options);
   }
+  options.SecondsBefore = clock.Elapsed();
+  options.PointsAfter = points.size();
   auto made = std::make_unique<RadiositySimulation>(scene, options, kept);
   RadiositySimulation& simulation = *made;
   const double share = points.empty() ? 0.98 : (cells ? 0.8 : 0.6);
@@ -227,6 +229,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
     &out.PointIrradiance, &out.PointRadiosity });
   effects.Bound(GreatestValue({ &out.Cells.Irradiance, &out.PointIrradiance }));
   out.Effects = plan.Decisions();
+  out.Cost = out.Cells.Cost;
   out.Cost.Seconds = clock.Elapsed();
   out.Cost.Samples = out.Cells.Samples;
   out.Cost.Bytes = out.Cells.OperatorBytes;

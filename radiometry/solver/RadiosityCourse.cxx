@@ -16,7 +16,10 @@ namespace
 {
 
 constexpr int FirstRays = 64;
-constexpr int MostRays = 16384;
+/// Rays of an element from which on they tell what they will need, and what elements do.
+constexpr double SureRays = 256.0;
+/// Share of the cells that may be beyond any number of rays.
+constexpr double MostOpen = 0.04;
 constexpr double FirstTolerance = 0.03;
 /// A part of the error counts as limiting above this share of the other.
 constexpr double Limiting = 0.3;
@@ -155,9 +158,13 @@ void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& sta
   level.ExchangeSeconds = this->Agreed(this->Result.Convergence.Elapsed() - begin);
 }
 
-RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const ElementSet& coarsest,
-  const std::vector<std::uint8_t>& unfinished, double solveSeconds)
+RadiosityAdvance RadiosityRun::Decide(
+  const RadiosityLevel& level, const ElementSet& coarsest, const RadiosityState& state)
 {
+  if (level.Carlo)
+  {
+    return this->DecideRays(level, coarsest, state);
+  }
   RadiosityAdvance advance;
   advance.Tolerance = level.Tolerance;
   advance.Area = level.TargetArea;
@@ -165,36 +172,25 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
   const double sampled = budget.Direct + budget.Visibility + budget.FormFactors;
   const bool elements = budget.Discretisation > Limiting * sampled;
   const double error = this->Result.Convergence.Rows.back().RelativeError;
-  // All pairs go on to their limits; what is made finer here and there stops where it does not help.
-  const bool stalled = level.Method != RadiosityMethod::Dense &&
-    this->Result.MetShare < this->LastMet + 0.01 &&
-    this->Result.Excess > 0.93 * this->LastExcess && error > 0.93 * this->LastError;
-  this->LastMet = this->Result.MetShare;
-  this->LastExcess = this->Result.Excess;
-  this->LastError = error;
-  const bool finerExchange = !(stalled && level.Carlo) && sampled > Limiting * budget.Discretisation &&
-    this->FinerExchange(level, unfinished, solveSeconds, advance);
-  if (!advance.Rays.empty() || !advance.Outcome.empty())
-  {
-    return advance;
-  }
+  const bool finerExchange = sampled > Limiting * budget.Discretisation &&
+    this->FinerExchange(level, state, advance);
   double ratio = 1.0;
-  const bool finerElements = (elements || (!finerExchange && level.Method != RadiosityMethod::Dense)) &&
-    this->FinerElements(level, coarsest, unfinished, advance, ratio);
+  const bool dense = level.Method == RadiosityMethod::Dense;
+  const bool finerElements = (elements || (!finerExchange && !dense)) &&
+    this->FinerElements(level, coarsest, state.Unfinished, advance, ratio);
   if (finerExchange || finerElements)
   {
-    if (finerElements && level.Method != RadiosityMethod::Dense)
+    if (finerElements && !dense)
     {
       if (error > 0.93 * this->DividedError)
       {
         advance.Outcome = "finer elements no longer help";
       }
       this->DividedError = error;
-      this->LastError = std::numeric_limits<double>::infinity();
     }
-    const double power = level.Method == RadiosityMethod::Dense ? 2.0 : 1.0;
-    const double predicted = 2.0 * solveSeconds * ratio +
-      level.ExchangeSeconds * std::pow(ratio, power) * level.Tolerance / advance.Tolerance;
+    const double predicted = 2.0 * state.SolveSeconds * ratio +
+      level.ExchangeSeconds * std::pow(ratio, dense ? 2.0 : 1.0) * level.Tolerance /
+        advance.Tolerance;
     if (advance.Outcome.empty() && predicted > this->Left())
     {
       advance.Outcome = "the time budget does not allow a finer step";
@@ -204,8 +200,8 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
   {
     advance.Outcome = "one radiosity a cell, as asked";
   }
-  else if (elements && level.Method == RadiosityMethod::Dense && this->MayTurnToMany() &&
-    !this->Context.Convex && this->Context.Options.Occlusion)
+  else if (elements && dense && this->MayTurnToMany() && !this->Context.Convex &&
+    this->Context.Options.Occlusion)
   {
     advance.OtherMethod = true;
   }
@@ -217,9 +213,90 @@ RadiosityAdvance RadiosityRun::Decide(const RadiosityLevel& level, const Element
   return advance;
 }
 
-/// More rays where rays are what limits; or a finer tolerance of all pairs.
-bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
-  const std::vector<std::uint8_t>& unfinished, double solveSeconds, RadiosityAdvance& advance)
+/// Elements while too many cells are beyond any number of rays, for finer ones ask for rays anew;
+/// then rays.
+RadiosityAdvance RadiosityRun::DecideRays(
+  const RadiosityLevel& level, const ElementSet& coarsest, const RadiosityState& state)
+{
+  RadiosityAdvance advance;
+  advance.Tolerance = level.Tolerance;
+  advance.Area = level.TargetArea;
+  const double error = this->Result.Convergence.Rows.back().RelativeError;
+  const bool helped = this->Result.MetShare >= this->LastMet + 0.01 ||
+    this->Result.Excess95 <= 0.95 * this->LastExcess || error <= 0.95 * this->LastError;
+  this->LastMet = this->Result.MetShare;
+  this->LastExcess = this->Result.Excess95;
+  this->LastError = error;
+  const double each = static_cast<double>(level.F->Samples()) / static_cast<double>(level.F->Size());
+  const bool sure = each >= SureRays;
+  const bool rays = state.Rays.Total > 0.0 && (helped || !sure);
+  const bool finer = sure && (state.Rays.Open > MostOpen || !rays) &&
+    error <= 0.93 * this->DividedError;
+  double ratio = 1.0;
+  if (finer && this->FinerElements(level, coarsest, state.Unfinished, advance, ratio))
+  {
+    const double again = ratio * (level.ExchangeSeconds + 2.0 * state.SolveSeconds);
+    if (again < this->Left())
+    {
+      this->DividedError = error;
+      this->LastMet = 0.0;
+      this->LastError = std::numeric_limits<double>::infinity();
+      return advance;
+    }
+    advance.Divided.clear();
+    advance.Outcome = rays ? "" : "the time budget does not allow a finer step";
+  }
+  if (rays)
+  {
+    RayPlan plan = state.Rays;
+    if (this->FitRays(level, state, advance, plan))
+    {
+      advance.Rays = std::move(plan.Rays);
+    }
+  }
+  else if (advance.Outcome.empty())
+  {
+    advance.Outcome = this->Context.Options.Refinement == RefinementMode::Off
+      ? "one radiosity a cell, as asked"
+      : state.Rays.Open > MostOpen ? "finer elements no longer help"
+                                   : "more rays no longer help";
+  }
+  return advance;
+}
+
+/// Takes as many of the rays as memory and time allow; false where that is hardly any.
+bool RadiosityRun::FitRays(const RadiosityLevel& level, const RadiosityState& state,
+  RadiosityAdvance& advance, RayPlan& plan) const
+{
+  constexpr double hardly = 0.05;
+  const auto has = static_cast<double>(std::max<std::int64_t>(1, level.F->Samples()));
+  const auto bytes = static_cast<double>(level.F->MemoryBytes());
+  const double room = (static_cast<double>(this->Context.Memory) - bytes) / 4.0;
+  // Each ray is traced once, and looked at in the solve that follows.
+  const double raySeconds = (level.ExchangeSeconds + state.SolveSeconds) / has;
+  const double affordable = (0.95 * this->Left() - state.SolveSeconds) / raySeconds;
+  const double share = std::min(room, affordable) / plan.Total;
+  if (share >= 1.0)
+  {
+    return true;
+  }
+  if (!(share * plan.Total > hardly * has))
+  {
+    advance.Outcome = room < affordable ? "the memory limit does not allow more rays"
+                                        : "the time budget does not allow more rays";
+    return false;
+  }
+  for (std::int32_t& rays : plan.Rays)
+  {
+    rays = static_cast<std::int32_t>(share * rays);
+  }
+  return true;
+}
+
+/// A finer tolerance of all pairs, or links made anew that are finer where what they leave unsure
+/// limits.
+bool RadiosityRun::FinerExchange(
+  const RadiosityLevel& level, const RadiosityState& state, RadiosityAdvance& advance)
 {
   if (level.Method == RadiosityMethod::Dense)
   {
@@ -245,7 +322,7 @@ bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
     }
     const auto g = static_cast<std::size_t>(neighbourhood[e]);
     whole[g] += level.Elements.GetAreas()[e];
-    wanting[g] += unfinished[e] && limits ? level.Elements.GetAreas()[e] : 0.0;
+    wanting[g] += state.Unfinished[e] && limits ? level.Elements.GetAreas()[e] : 0.0;
   }
   std::vector<std::uint8_t> marked(n, 0);
   for (std::size_t e = 0; e < n; ++e)
@@ -253,38 +330,7 @@ bool RadiosityRun::FinerExchange(const RadiosityLevel& level,
     const auto g = static_cast<std::size_t>(neighbourhood[e]);
     marked[e] = wanting[g] > 0.1 * whole[g];
   }
-  if (!level.Carlo)
-  {
-    return this->FinerRows(level, marked, advance);
-  }
-  std::int64_t more = 0;
-  for (std::size_t e = 0; e < n; ++e)
-  {
-    marked[e] = marked[e] && level.Carlo->Rays(e) < MostRays;
-    more += marked[e] ? level.Carlo->Rays(e) : 0;
-  }
-  if (more == 0)
-  {
-    return false;
-  }
-  // Errors fall with the root of the rays: far from the tolerance they are doubled more than once.
-  const double lack = std::min(this->Result.Excess95, 3.0);
-  advance.Doublings = std::max(1, static_cast<int>(std::log2(lack * lack)));
-  more *= (std::int64_t(1) << advance.Doublings) - 1;
-  if (level.F->MemoryBytes() + static_cast<std::size_t>(more) * 4 > this->Context.Memory)
-  {
-    advance.Outcome = "the memory limit does not allow more rays";
-    return false;
-  }
-  const double raySeconds =
-    level.ExchangeSeconds / static_cast<double>(std::max<std::int64_t>(1, level.F->Samples()));
-  if (static_cast<double>(more) * raySeconds + 2.0 * solveSeconds > this->Left())
-  {
-    advance.Outcome = "the time budget does not allow more rays";
-    return false;
-  }
-  advance.Rays = std::move(marked);
-  return true;
+  return this->FinerRows(level, marked, advance);
 }
 
 /// Links are made anew, finer for the rows that want it.

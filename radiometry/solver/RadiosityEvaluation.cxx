@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace radiometry
 {
@@ -12,10 +13,34 @@ namespace
 
 using Values = std::vector<double>;
 
+/// Rays are asked for with some room, since what they bring is itself uncertain.
+constexpr double RayRoom = 0.92;
+/// A cell that leaves less than that share of what is allowed to rays is not worth them.
+constexpr double LeastForRays = 0.25;
+
 } // namespace
 
+double CellState::WithoutRays() const
+{
+  return std::hypot(this->Direct, this->Discretisation) + this->Bounds;
+}
+
+double CellState::RayNeed() const
+{
+  const double all = std::max(0.0, RayRoom - this->Bounds);
+  const double others = std::hypot(this->Direct, this->Discretisation);
+  const double left = all > others ? std::sqrt(all * all - others * others) : 0.0;
+  if (left < LeastForRays)
+  {
+    return this->Excess <= 1.0f ? 1.0 : std::numeric_limits<double>::infinity();
+  }
+  const double lack = this->Visibility / left;
+  return lack * lack;
+}
+
 bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& level,
-  const char* stage, RadiosityResult& result, std::vector<std::uint8_t>* unfinished)
+  const char* stage, RadiosityResult& result, std::vector<std::uint8_t>* unfinished,
+  CellStates* states)
 {
   const std::size_t n = level.Elements.Size();
   const std::size_t nb = context.Bands;
@@ -119,6 +144,10 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
       f->Errors.assign(cells * nb, 0.0);
     }
     open[side].assign(cells, 0);
+    if (states)
+    {
+      (*states)[side].assign(cells, CellState());
+    }
     for (std::size_t c = 0; c < cells; ++c)
     {
       const double a = s.Area[c];
@@ -147,8 +176,16 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
         totalError += a * error;
         const double allowed = std::max(context.Options.AbsoluteTolerance,
           context.Options.RelativeTolerance * std::max(value, DarkestShare * meanValue));
-        worstExcess =
-          std::max(worstExcess, allowed > 0.0 ? error / allowed : (error > 0.0 ? 10.0 : 0.0));
+        const double bandExcess = allowed > 0.0 ? error / allowed : (error > 0.0 ? 10.0 : 0.0);
+        if (states && bandExcess >= worstExcess)
+        {
+          const double share = allowed > 0.0 ? 1.0 / allowed : (error > 0.0 ? 10.0 / error : 0.0);
+          (*states)[side][c] = { static_cast<float>(a), static_cast<float>(bandExcess),
+            static_cast<float>(direct * share), static_cast<float>(visibility * share),
+            static_cast<float>(discretisation * share),
+            static_cast<float>((formFactor + solver) * share) };
+        }
+        worstExcess = std::max(worstExcess, bandExcess);
         worst.Direct = std::max(worst.Direct, direct);
         worst.FormFactors = std::max(worst.FormFactors, formFactor);
         worst.Visibility = std::max(worst.Visibility, visibility);

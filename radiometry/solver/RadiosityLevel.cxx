@@ -6,6 +6,7 @@
 #include "radiometry/solver/BalanceError.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/solver/ElementOverlap.h"
+#include "radiometry/solver/LightKey.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 #include "radiometry/solver/RadiositySolver.h"
@@ -57,6 +58,7 @@ RadiosityContext::RadiosityContext(
   , Bands(static_cast<std::size_t>(scene.Optics.Bands))
   , Memory(options.MemoryLimit ? options.MemoryLimit : DefaultMemory)
 {
+  this->Light = KeyOfLight(scene, options);
   if ((Compiled(Effect::SpecularTransport) || Compiled(Effect::Transmission)) &&
     options.FollowsPaths() &&
     (options.Method == RadiosityMethod::Auto || options.Method == RadiosityMethod::MonteCarlo))
@@ -155,6 +157,10 @@ void RadiosityLevel::Prepare(const RadiosityContext& context)
   {
     v->assign(values, 0.0);
   }
+  this->Light = context.Light;
+  this->LitFor.RelativeTolerance = 0.0;
+  this->SolvedFor = 0.0;
+  this->DiscretisedAt = 0.0;
   this->HasGuess = this->HasGuess && this->Gathered.size() == values;
   this->Gathered.resize(values, 0.0);
   this->Leaving.resize(values, 0.0);
@@ -165,6 +171,14 @@ void RadiosityLevel::Prepare(const RadiosityContext& context)
   {
     this->Emitters =
       SmallEmitters(context.Geometry, this->Elements, context.Options.BackFaces, EmitterPairs);
+  }
+}
+
+void RadiosityLevel::PrepareAgain(const RadiosityContext& context)
+{
+  if (this->Light != context.Light || !(this->LitFor.RelativeTolerance > 0.0))
+  {
+    this->Prepare(context);
   }
 }
 
@@ -303,6 +317,62 @@ void RadiosityLevel::Illuminate(const RadiosityContext& context, double secondsL
   }
   this->Irradiance = this->First;
   this->DirectError = this->FirstError;
+  this->LitFor = context.Direct(0.0);
+  this->SolvedFor = 0.0;
+}
+
+bool RadiosityLevel::IlluminateFiner(
+  const RadiosityContext& context, double secondsLeft, const StageProgress& stage)
+{
+  const DirectOptions wanted = context.Direct(0.0);
+  const bool finer = wanted.RelativeTolerance < this->LitFor.RelativeTolerance ||
+    wanted.AbsoluteTolerance < this->LitFor.AbsoluteTolerance;
+  if (!finer && !this->TimedOut)
+  {
+    return false;
+  }
+  const std::size_t nb = context.Bands;
+  const Values& light = this->Straight.empty() ? this->First : this->Straight;
+  const Values& error = this->Straight.empty() ? this->FirstError : this->StraightError;
+  const double floor = std::max(wanted.AbsoluteTolerance,
+    wanted.RelativeTolerance * wanted.MeanShare * this->LightMean);
+  std::vector<std::size_t> open;
+  std::vector<Patch> those;
+  for (std::size_t e = 0; e < this->Elements.Size(); ++e)
+  {
+    bool fine = true;
+    for (std::size_t k = e * nb; k < (e + 1) * nb; ++k)
+    {
+      fine = fine && error[k] <= std::max(floor, wanted.RelativeTolerance * light[k]);
+    }
+    if (!fine)
+    {
+      open.push_back(e);
+      those.push_back(this->Elements.GetPatches()[e]);
+    }
+  }
+  this->LitFor = wanted;
+  this->TimedOut = false;
+  if (open.empty() && this->Straight.empty())
+  {
+    return false;
+  }
+  this->First = Values(light);
+  this->FirstError = Values(error);
+  this->Straight.clear();
+  this->StraightError.clear();
+  this->Mirrored = {};
+  Values found, foundError;
+  this->AddLights(context, those, this->LightMean, secondsLeft, stage, found, foundError);
+  for (std::size_t k = 0; k < open.size(); ++k)
+  {
+    std::copy_n(found.data() + k * nb, nb, this->First.data() + open[k] * nb);
+    std::copy_n(foundError.data() + k * nb, nb, this->FirstError.data() + open[k] * nb);
+  }
+  this->Irradiance = this->First;
+  this->DirectError = this->FirstError;
+  this->SolvedFor = 0.0;
+  return true;
 }
 
 void RadiosityLevel::AddMirrored(
@@ -323,6 +393,7 @@ void RadiosityLevel::AddMirrored(
     this->First[k] += this->Mirrored.Irradiance[k];
     this->FirstError[k] = std::hypot(this->FirstError[k], this->Mirrored.Error[k]);
   }
+  this->SolvedFor = 0.0;
   this->Irradiance = this->First;
   this->DirectError = this->FirstError;
 }
@@ -372,7 +443,11 @@ void RadiosityLevel::Solve(
   options.InverseBound = this->InverseBound.empty() ? nullptr : &this->InverseBound;
   SolveResult r;
   std::vector<std::int32_t> component; // empty where nothing had to be solved
-  if (perCell)
+  if (context.Options.MaximumBounces > 0 && context.Options.Interreflection)
+  {
+    this->SumBounces(context, scattering);
+  }
+  else if (perCell)
   {
     std::size_t count = 0;
     const std::vector<std::int32_t> group = this->Elements.CellGroups(count);
@@ -443,7 +518,9 @@ void RadiosityLevel::Solve(
   if (discretise)
   {
     this->Discretise(context, scattering, source, stage);
+    this->DiscretisedAt = static_cast<double>(this->F->Samples()) / static_cast<double>(n);
   }
+  this->SolvedFor = context.Options.RelativeTolerance;
 }
 
 /// Rays that all missed a small bright place know nothing of it and seem sure of themselves: each

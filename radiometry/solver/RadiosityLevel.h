@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/formfactor/ElementSet.h"
+#include "radiometry/formfactor/GeometryKey.h"
 #include "radiometry/irradiance/EmitterIrradiance.h"
 #include "radiometry/formfactor/FormFactorOperator.h"
 #include "radiometry/formfactor/LightPaths.h"
@@ -26,6 +27,7 @@ struct RadiosityContext
   const Scene& Geometry;
   const OcclusionScene& Occluders;
   RadiosityOptions Options;
+  ContentKey Light; // what is lit and how it reflects
   std::size_t Bands = 1;
   std::size_t Memory = 0;  // bytes
   bool Convex = false;     // nothing can hide anything
@@ -55,6 +57,8 @@ struct RadiosityLevel
   /// For the optics of a scene of the same geometry: nothing is lit, and what left the elements
   /// before is where the next solve begins.
   void Prepare(const RadiosityContext& context);
+  /// For another run: all is kept where the light is the same, else as Prepare.
+  void PrepareAgain(const RadiosityContext& context);
   /// What leaves other elements as where the first solve begins.
   void BeginFrom(const RadiosityLevel& earlier, std::size_t bands);
 
@@ -62,6 +66,11 @@ struct RadiosityLevel
   /// (of the same lights; may be null) has too keep what was found there.
   void Illuminate(const RadiosityContext& context, double secondsLeft,
     const RadiosityLevel* earlier, const StageProgress& stage);
+
+  /// The same elements for a finer tolerance: direct light of those that do not meet it, once more.
+  /// True where First changed.
+  bool IlluminateFiner(
+    const RadiosityContext& context, double secondsLeft, const StageProgress& stage);
 
   /// Adds the light of lights over mirrors to First: once, when the elements are those to solve on.
   void AddMirrored(const RadiosityContext& context, double secondsLeft, const StageProgress& stage);
@@ -107,6 +116,7 @@ struct RadiosityLevel
   double Tolerance = 0.0;       // of F
   std::vector<float> RowTolerance; // factor on it of each row; empty: 1
   double ExchangeSeconds = 0.0; // that F took
+  double SolveSeconds = 0.0;    // and the last solve
   int Rays = 0;                 // of each element at first; 0: as always
   double MetShare = 1.0;        // of the run that made F
   bool HasGuess = false;        // Gathered is worth beginning from
@@ -114,6 +124,11 @@ struct RadiosityLevel
   bool TimedOut = false;  // lights were not all looked at
   std::unique_ptr<FormFactorOperator> F;
   MonteCarloOperator* Carlo = nullptr; // F, when it is one
+  ContentKey Light;             // of the run that it was lit and solved for
+  DirectOptions LitFor;         // tolerances of First; 0: it is not lit
+  double SolvedFor = 0.0;       // tolerance of the last solve; 0: there is none over F as it is
+  double LeftOut = 0.0; // bound on what more bounces than MaximumBounces would add, W/m^2
+  double DiscretisedAt = 0.0;   // samples an element at the last estimate; 0: there is none
   int Iterations = 0;
   Values InverseBound; // of the system, from its last solve
 
@@ -124,6 +139,7 @@ private:
   void AddLights(const RadiosityContext& context, const std::vector<Patch>& patches,
     double knownMean, double secondsLeft, const StageProgress& stage, Values& light, Values& error);
   void CheckEmission(const RadiosityContext& context) const;
+  void SumBounces(const RadiosityContext& context, const DiffuseScattering& scattering);
   void PoolSampling(const RadiosityContext& context);
   void AddReflectedSampling(const RadiosityContext& context, const DiffuseScattering& scattering);
   void Discretise(const RadiosityContext& context, const DiffuseScattering& scattering,

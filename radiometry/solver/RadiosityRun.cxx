@@ -63,6 +63,120 @@ bool RadiosityRun::MeanMeets() const
     last.AbsoluteError <= this->Context.Options.AbsoluteTolerance;
 }
 
+void RadiosityRun::Predict(double remaining, const StageProgress& stage)
+{
+  RunCost& cost = this->Result.Cost;
+  if (cost.PredictedSeconds >= 0.0)
+  {
+    return;
+  }
+  const double spent = this->Elapsed();
+  const double budget = this->Context.Options.TimeBudget;
+  double whole = spent + this->Agreed(std::max(0.0, remaining));
+  whole = budget > 0.0 ? std::max(spent, std::min(budget, whole)) : whole;
+  cost.PredictedAt = this->Context.Options.SecondsBefore + spent;
+  cost.PredictedSeconds = this->Context.Options.SecondsBefore + whole + this->AfterSeconds();
+  if (stage.Listener)
+  {
+    stage.Listener->Predicted(cost.PredictedSeconds);
+  }
+}
+
+bool RadiosityRun::Resume(const StageProgress& stage)
+{
+  std::unique_ptr<RadiosityLevel>& level = this->Finest;
+  if (this->Cache)
+  {
+    level = this->Cache->Take(this->Context.Geometry, this->Context.Options);
+  }
+  if (!level)
+  {
+    return false;
+  }
+  const bool same = level->Light == this->Context.Light && level->LitFor.RelativeTolerance > 0.0;
+  level->PrepareAgain(this->Context);
+  this->Context.Tolerance = level->Tolerance;
+  this->Result.MethodWhy = std::string(MethodName(level->Method)) + ": " +
+    (level->Source.empty() ? "kept from the run before, geometry is the same" : level->Source);
+  if (same)
+  {
+    this->Result.MethodWhy += " and so are the lights: it goes on from there";
+  }
+  level->Source.clear();
+  this->Timed("direct light", [&] {
+    if (same)
+    {
+      level->IlluminateFiner(this->Context, this->Left(), stage);
+    }
+    else
+    {
+      level->Illuminate(this->Context, this->Left(), nullptr, stage);
+    }
+  });
+  this->KeptMetShare = !same && level->F ? level->MetShare : -1.0;
+  return true;
+}
+
+bool RadiosityRun::SolveLevel(
+  RadiosityLevel& level, RadiosityState& state, const StageProgress& stage)
+{
+  const auto part = [&](double from, double to, const char* name) {
+    StageProgress p = stage;
+    p.Begin = stage.Begin + from * (stage.End - stage.Begin);
+    p.End = stage.Begin + to * (stage.End - stage.Begin);
+    p.Name = name;
+    return p;
+  };
+  this->Result.Method = level.Method;
+  if (this->Context.Paths && level.Mirrored.Irradiance.empty())
+  {
+    this->Timed("light over mirrors", [&] {
+      level.AddMirrored(this->Context, this->Left(), part(0.1, 0.2, "light over mirrors"));
+    });
+  }
+  if (!level.F)
+  {
+    this->Timed("exchange", [&] { this->BuildOperator(level, part(0.2, 0.8, "exchange")); });
+  }
+  if (!(level.SolvedFor > 0.0 && level.SolvedFor <= this->Context.Options.RelativeTolerance))
+  {
+    // What constant elements change is estimated at first, and again when rays have grown to many
+    // more: few tell more of their own noise.
+    const double samples = static_cast<double>(level.F->Samples()) /
+      static_cast<double>(std::max<std::size_t>(1, level.F->Size()));
+    const bool discretise = level.DiscretisedAt == 0.0 || samples >= 3.0 * level.DiscretisedAt;
+    state.SolveSeconds = this->Timed(
+      "solve", [&] { level.Solve(this->Context, discretise, part(0.8, 1.0, "solve")); });
+    level.SolveSeconds = state.SolveSeconds;
+  }
+  state.SolveSeconds = level.SolveSeconds;
+  return EvaluateRadiosity(
+    this->Context, level, "solved", this->Result, &state.Unfinished, &state.Cells);
+}
+
+std::string RadiosityRun::Ended(
+  bool met, const RadiosityLevel& level, const ElementSet& coarsest)
+{
+  const bool atLeastOnce = this->Context.Options.Refinement == RefinementMode::On;
+  if (met && !(atLeastOnce && level.Elements.Size() == coarsest.Size()))
+  {
+    return MetOutcome;
+  }
+  if (!atLeastOnce && level.Elements.Size() > MostRefined && this->MeanMeets())
+  {
+    return "the tolerance is met by the mean error, which is enough for more than " +
+      std::to_string(MostRefined) + " elements unless Refinement is On; " +
+      Percent(this->Result.MetShare) + " of the cells or their area meet it";
+  }
+  if (this->KeptMetShare >= 0.0 &&
+    this->Result.MetShare >= std::min(KeptShare, this->KeptMetShare - KeptLoss))
+  {
+    return "the tolerance is met by " + Percent(this->Result.MetShare) +
+      " of the cells or their area over the exchange that was kept";
+  }
+  return "";
+}
+
 void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage)
 {
   double begin = stage.Begin;
@@ -76,90 +190,52 @@ void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage
     return p;
   };
   std::unique_ptr<RadiosityLevel>& level = this->Finest;
-  if (this->Cache)
-  {
-    level = this->Cache->Take(this->Context.Geometry, this->Context.Options);
-  }
-  if (level)
-  {
-    level->Prepare(this->Context);
-    this->Context.Tolerance = level->Tolerance;
-    this->Result.MethodWhy =
-      std::string(MethodName(level->Method)) + ": " +
-      (level->Source.empty() ? "kept from the run before, geometry is the same" : level->Source);
-    level->Source.clear();
-    this->Timed("direct light", [&] {
-      level->Illuminate(this->Context, this->Left(), nullptr, part(0.0, 0.5, "direct light"));
-    });
-  }
-  else
+  if (!this->Resume(part(0.0, 0.5, "direct light")))
   {
     level = this->Begin(this->Choose(coarsest), coarsest, part(0.0, 0.2, "direct light"));
   }
-  const RadiosityLevel* kept = this->Cache && level->F ? level.get() : nullptr;
-  const bool atLeastOnce = this->Context.Options.Refinement == RefinementMode::On;
   for (;;)
   {
-    this->Result.Method = level->Method;
-    if (this->Context.Paths && level->Mirrored.Irradiance.empty())
-    {
-      this->Timed("light over mirrors", [&] {
-        level->AddMirrored(this->Context, this->Left(), part(0.1, 0.2, "light over mirrors"));
-      });
-    }
-    if (!level->F)
-    {
-      this->Timed("exchange", [&] { this->BuildOperator(*level, part(0.2, 0.8, "exchange")); });
-      this->Solves = 0;
-    }
-    // The estimate of what constant elements change is made at first, and once more with more rays.
-    const double solveSeconds = this->Timed("solve", [&] {
-      level->Solve(this->Context, this->Solves == 0 || this->Solves == 2, part(0.8, 1.0, "solve"));
-    });
-    ++this->Solves;
+    RadiosityState state;
+    const bool met = this->SolveLevel(*level, state, part(0.0, 1.0, ""));
     begin = part(0.0, 1.0, "").End;
-    std::vector<std::uint8_t> unfinished;
-    const bool met =
-      EvaluateRadiosity(this->Context, *level, "solved", this->Result, &unfinished);
-    level->MetShare = kept ? level->MetShare : this->Result.MetShare;
-    if (met && !(atLeastOnce && level->Elements.Size() == coarsest.Size()))
+    level->MetShare = this->KeptMetShare >= 0.0 ? level->MetShare : this->Result.MetShare;
+    this->Result.Outcome = this->Ended(met, *level, coarsest);
+    if (!this->Result.Outcome.empty())
     {
-      this->Result.Outcome = MetOutcome;
-      return;
+      break;
     }
-    if (!atLeastOnce && level->Elements.Size() > MostRefined && this->MeanMeets())
+    this->KeptMetShare = -1.0;
+    if (level->Carlo)
     {
-      this->Result.Outcome = "the tolerance is met by the mean error, which is enough for more than " +
-        std::to_string(MostRefined) + " elements unless Refinement is On; " +
-        Percent(this->Result.MetShare) + " of the cells or their area meet it";
-      return;
+      state.Rays = PlanRays(this->Context, *level, state.Cells);
     }
-    if (kept && this->Result.MetShare >= std::min(KeptShare, kept->MetShare - KeptLoss))
-    {
-      this->Result.Outcome = "the tolerance is met by " + Percent(this->Result.MetShare) +
-        " of the cells or their area over the exchange that was kept";
-      return;
-    }
-    kept = nullptr;
-    RadiosityAdvance advance = this->Decide(*level, coarsest, unfinished, solveSeconds);
+    RadiosityAdvance advance = this->Decide(*level, coarsest, state);
     if (!advance.Outcome.empty())
     {
       this->Result.Outcome = std::move(advance.Outcome);
-      return;
+      break;
+    }
+    const double remaining = this->Remaining(*level, coarsest, state);
+    if (remaining >= 0.0)
+    {
+      this->Predict(remaining, part(0.0, 0.0, "exchange"));
+      if (this->Context.Options.PilotOnly)
+      {
+        this->Result.Outcome = "the pilot is done";
+        return;
+      }
     }
     if (!advance.Rays.empty())
     {
-      level->ExchangeSeconds += this->Timed("rays", [&] {
-        for (int k = 0; k < advance.Doublings; ++k)
-        {
-          level->Carlo->DoubleRays(advance.Rays,
-            part(0.8 * k / advance.Doublings, 0.8 * (k + 1) / advance.Doublings, "rays"));
-        }
-      });
+      level->ExchangeSeconds += this->Timed(
+        "rays", [&] { level->Carlo->AddRays(advance.Rays, part(0.0, 0.8, "rays")); });
+      level->SolvedFor = 0.0;
       continue;
     }
     level = this->Next(advance, std::move(level), coarsest, part(0.0, 0.2, "direct light"));
   }
+  this->Predict(0.0, part(0.0, 0.0, "solve"));
 }
 
 } // namespace radiometry

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "radiometry/solver/RadiosityCache.h"
+#include "radiometry/solver/RadiosityEvaluation.h"
 #include "radiometry/solver/RadiosityLevel.h"
+#include "radiometry/solver/RayPlan.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,11 +26,19 @@ struct RadiosityAdvance
   std::string Outcome;               // not empty: it ends, and this is why
   double Tolerance = 0.0;            // of a new operator
   double Area = 0.0;                 // that no element of the next level exceeds, m^2
-  std::vector<std::uint8_t> Rays;    // elements whose rays are doubled, on the same level
-  int Doublings = 1;                 // so often
+  std::vector<std::int32_t> Rays;    // to add to each element, on the same level
   std::vector<float> Rows;           // factors on the tolerance of each row; empty: as before
   std::vector<std::uint8_t> Divided; // elements to divide; empty: by area alone
   bool OtherMethod = false;          // the next level's is one for many elements
+};
+
+/// Where a level stands after a solve.
+struct RadiosityState
+{
+  std::vector<std::uint8_t> Unfinished; // elements of cells that do not meet the tolerance
+  CellStates Cells;
+  RayPlan Rays; // of a Monte Carlo level
+  double SolveSeconds = 0.0;
 };
 
 /// One run of RadiositySimulation: a level of elements, its operator, the solve and what limits its
@@ -75,8 +85,16 @@ struct RadiosityRun
 
   /// Whether the mean error is within the tolerance.
   bool MeanMeets() const;
+  /// Says, unless it was said, that so many seconds are still to be spent.
+  void Predict(double remaining, const StageProgress& stage);
   /// From the first level, or that of the run before, to the last.
   void Follow(const ElementSet& coarsest, const StageProgress& stage);
+  /// The level that the run before left, made ready; false: there is none.
+  bool Resume(const StageProgress& stage);
+  /// Operator, solution, and values with their errors.
+  bool SolveLevel(RadiosityLevel& level, RadiosityState& state, const StageProgress& stage);
+  /// Why the run ends here; empty: it goes on.
+  std::string Ended(bool met, const RadiosityLevel& level, const ElementSet& coarsest);
 
   // RadiosityMethodChoice.cxx
   RadiosityMethod Choose(const ElementSet& elements);
@@ -101,13 +119,28 @@ struct RadiosityRun
     std::unique_ptr<RadiosityLevel> level, const ElementSet& coarsest, const StageProgress& stage);
   void BuildOperator(RadiosityLevel& level, const StageProgress& stage);
   RadiosityAdvance Decide(const RadiosityLevel& level, const ElementSet& coarsest,
-    const std::vector<std::uint8_t>& unfinished, double solveSeconds);
-  bool FinerExchange(const RadiosityLevel& level, const std::vector<std::uint8_t>& unfinished,
-    double solveSeconds, RadiosityAdvance& advance);
+    const RadiosityState& state);
+  RadiosityAdvance DecideRays(const RadiosityLevel& level, const ElementSet& coarsest,
+    const RadiosityState& state);
+  bool FitRays(const RadiosityLevel& level, const RadiosityState& state, RadiosityAdvance& advance,
+    RayPlan& plan) const;
+  bool FinerExchange(const RadiosityLevel& level, const RadiosityState& state,
+    RadiosityAdvance& advance);
   bool FinerRows(const RadiosityLevel& level, const std::vector<std::uint8_t>& marked,
     RadiosityAdvance& advance) const;
   bool FinerElements(const RadiosityLevel& level, const ElementSet& coarsest,
     const std::vector<std::uint8_t>& unfinished, RadiosityAdvance& advance, double& ratio);
+
+  // RadiosityPrediction.cxx
+  /// Seconds that a level will still take, method by method.
+  double Remaining(const RadiosityLevel& level, const ElementSet& coarsest,
+    const RadiosityState& state) const;
+  /// Of the final gather at points that follows the run.
+  double AfterSeconds() const;
+  double RemainingRays(const RadiosityLevel& level, const RadiosityState& state) const;
+  double RemainingPairs(const RadiosityLevel& level, const ElementSet& coarsest) const;
+  double RemainingLinks(
+    const RadiosityLevel& level, const ElementSet& coarsest, const RadiosityState& state) const;
 
   // RadiosityRefinement.cxx
   /// Finer where first light is uneven (up to `uneven` elements), and where small things stand
@@ -115,11 +148,14 @@ struct RadiosityRun
   std::unique_ptr<RadiosityLevel> RefineByLight(ElementSet elements, std::size_t room,
     std::size_t uneven, const RadiosityLevel* earlier, bool& complete, const StageProgress& stage);
 
+  double KeptMetShare = -1.0; // of the run whose operator this one took over under other lights; below
+                              // 0: none
   // Of the last steps: to see whether they helped.
   double LastMet = 0.0, LastExcess = std::numeric_limits<double>::infinity();
   double LastError = std::numeric_limits<double>::infinity();
   double DividedError = std::numeric_limits<double>::infinity(); // when elements were last divided
-  int Solves = 0; // of the present level
+  double LastOpen = 1.0;
+  int Levels = 0; // that were begun
 };
 
 } // namespace radiometry

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiometry/accuracy/ConvergenceRecord.h"
+#include "radiometry/accuracy/RunCost.h"
 #include "radiometry/formfactor/FormFactorOperator.h"
 #include "radiometry/irradiance/IrradianceSimulation.h"
 #include "radiometry/scene/Communicator.h"
@@ -50,6 +51,7 @@ struct RadiosityOptions
   RadiosityMethod Method = RadiosityMethod::Auto;
   RefinementMode Refinement = RefinementMode::Auto;
   bool Interreflection = true;
+  int MaximumBounces = 0; // so often light that lights or emitters send is reflected; 0: for ever
   bool Occlusion = true;
   bool BackFaces = true;
   bool Emission = true;
@@ -61,7 +63,9 @@ struct RadiosityOptions
   bool PathTransmission = false;  // what surfaces send is followed through panes
   bool LightVisibility = false;   // how much of each light arrives is wanted, too
   bool PilotOnly = false; // end where the cost of the run is known (RunCost::PredictedSeconds)
-  int Threads = 0; // 0: all
+  double SecondsBefore = 0.0;  // that the caller spent: they count in what is predicted
+  std::size_t PointsAfter = 0; // at which values will be wanted when the run has ended: the same
+  int Threads = 0;             // 0: all
   std::uint64_t Seed = 0;
   const Communicator* Ranks = nullptr; // that compute together; null: this process alone
 
@@ -91,6 +95,7 @@ struct RadiosityResult
   RadiosityMethod Method = RadiosityMethod::Auto; // used
   std::string MethodWhy;                          // why, with the operator's own description
   std::string Outcome;                            // what ended the run
+  RunCost Cost;
   ConvergenceRecord Convergence;
   std::vector<std::pair<std::string, double>> Seconds; // by stage
   ClosureReport Closure;
