@@ -72,6 +72,7 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
   options.MemoryLimit = job.Memory;
   options.Method = static_cast<radiometry::RadiosityMethod>(this->Method);
   options.Refinement = static_cast<radiometry::RefinementMode>(this->Refinement);
+  options.MaximumBounces = this->MaximumBounces;
   options.LightVisibility = job.WantVisibility;
   options.Threads = job.Threads;
   options.Ranks = job.Ranks;
@@ -119,6 +120,7 @@ void vtkRadiosityFilter::CopyMembers(vtkRadiometricAlgorithm* from)
   this->Superclass::CopyMembers(from);
   auto* other = vtkRadiosityFilter::SafeDownCast(from);
   this->Method = other->Method;
+  this->MaximumBounces = other->MaximumBounces;
   this->CacheOperator = other->CacheOperator;
   this->OperatorFileMode = other->OperatorFileMode;
   this->SetOperatorFile(other->OperatorFile);
@@ -129,6 +131,7 @@ void vtkRadiosityFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   static const char* const methods[] = { "Auto", "Dense", "Hierarchical", "MonteCarlo" };
   os << indent << "Method: " << methods[this->Method] << '\n'
+     << indent << "MaximumBounces: " << this->MaximumBounces << '\n'
      << indent << "OperatorFile: " << (this->OperatorFile ? this->OperatorFile : "(none)") << '\n'
      << indent << "OperatorFileMode: " << this->OperatorFileMode << '\n'
      << indent << "CacheOperator: " << this->CacheOperator << '\n';

@@ -47,6 +47,14 @@ public:
   ///@}
 
   ///@{
+  /// How often light is reflected at most: 0 (default) as often as it matters, n: n times exactly, so
+  /// that 1 is direct light and what it sheds on other surfaces. What further reflections would add to
+  /// any value is bounded in the effect plan, in the row Interreflection.
+  vtkSetClampMacro(MaximumBounces, int, 0, 1000000);
+  vtkGetMacro(MaximumBounces, int);
+  ///@}
+
+  ///@{
   /// Whether elements and the exchange between them are kept for the next execution. Default on:
   /// while points, cells, receiving sides and transmittances of surface and occluders stay the
   /// same, moving, dimming or recolouring lights, and changing diffuse reflectance or emission,
@@ -91,6 +99,7 @@ protected:
   void Simulate(Job& job, Result& result) override;
 
   int Method = METHOD_AUTO;
+  int MaximumBounces = 0;
   bool CacheOperator = true;
   char* OperatorFile = nullptr;
   int OperatorFileMode = FILE_UNUSED;

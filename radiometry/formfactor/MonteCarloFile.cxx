@@ -125,6 +125,7 @@ std::unique_ptr<MonteCarloOperator> MonteCarloOperator::Load(ArchiveReader& in,
       Damaged("it lacks rays");
     }
   }
+  f.FindRows();
   f.Total = std::accumulate(f.RaysOf.begin(), f.RaysOf.end(), std::int64_t(0));
   f.TotalCut = std::accumulate(f.CutOf.begin(), f.CutOf.end(), std::int64_t(0));
   if (options.Ranks)

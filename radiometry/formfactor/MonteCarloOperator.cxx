@@ -197,6 +197,28 @@ void MonteCarloOperator::SumRow(const Round& round, std::size_t row, int batch,
 
 const std::vector<double>& MonteCarloOperator::Areas() const { return this->Elements->GetAreas(); }
 
+/// The values of the elements that have no rays: those of the rows they take. `spread`: with how these
+/// differ from each other.
+void MonteCarloOperator::TakeRows(
+  std::size_t nb, const std::vector<double>& mean, double* values, bool spread) const
+{
+  for (std::size_t i = 0; i < this->Around.size(); ++i)
+  {
+    const std::size_t row = this->RowOf(i);
+    if (row == i)
+    {
+      continue;
+    }
+    const auto before = static_cast<std::size_t>(this->Around[i][0]);
+    const auto behind = static_cast<std::size_t>(this->Around[i][1]);
+    for (std::size_t b = 0; b < nb; ++b)
+    {
+      const double off = spread ? mean[before * nb + b] - mean[behind * nb + b] : 0.0;
+      values[i * nb + b] = spread ? std::hypot(values[row * nb + b], off) : values[row * nb + b];
+    }
+  }
+}
+
 void MonteCarloOperator::Apply(const double* B, double* out, int bands) const
 {
   const auto nb = static_cast<std::size_t>(bands);
@@ -241,6 +263,7 @@ void MonteCarloOperator::Apply(const double* B, double* out, int bands) const
       }
     },
     3e-9 * static_cast<double>(n ? this->Total / static_cast<std::int64_t>(n) + 1 : 1));
+  this->TakeRows(nb, {}, out, false);
   if (this->Options.Ranks)
   {
     this->Options.Ranks->Gather(out, RankShare::Begins(*this->Options.Ranks, n, nb));
@@ -259,6 +282,7 @@ void MonteCarloOperator::ApplyError(
     greatest[k % nb] = std::max(greatest[k % nb], std::abs(scaled[k]));
   }
   std::fill(formFactor, formFactor + n * nb, 0.0); // rays sample both at once
+  std::vector<double> means(this->Around.empty() ? 0 : n * nb, 0.0);
   ParallelFor(
     this->Share.End - this->Share.Begin, this->Options.Threads, {},
     [&](std::size_t row) {
@@ -288,9 +312,14 @@ void MonteCarloOperator::ApplyError(
         }
         visibility[i * nb + b] =
           std::sqrt(square / (Batches * (Batches - 1.0))) + cut * greatest[b];
+        if (!means.empty())
+        {
+          means[i * nb + b] = mean;
+        }
       }
     },
     1e-8 * static_cast<double>(n ? this->Total / static_cast<std::int64_t>(n) + 1 : 1));
+  this->TakeRows(nb, means, visibility, true);
   if (this->Options.Ranks)
   {
     this->Options.Ranks->Gather(visibility, RankShare::Begins(*this->Options.Ranks, n, nb));

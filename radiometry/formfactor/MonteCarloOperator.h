@@ -9,6 +9,7 @@
 #include "radiometry/scene/Parallel.h"
 #include "radiometry/visibility/OcclusionScene.h"
 
+#include <array>
 #include <memory>
 
 namespace radiometry
@@ -31,6 +32,9 @@ namespace radiometry
 ///   Blockers rays that meet a side that does not receive are absorbed
 ///   Memory   4 bytes a ray; where the bands of a path differ, 4 more and 4 for each band
 ///   Cost     one ray each, times log(triangles), and one for each reflection
+///   Time     options.SecondsLeft (one process alone): past them no element gets rays. One without
+///            any takes the row of the nearest in number that has some, and differs from it by what
+///            those before and behind it differ among themselves: its error
 ///   Bytes    keyed on the element's number: the same for any number of threads and ranks
 ///   Fails    InputError for mirrors between which light is caught for ever, an emitting surface
 ///            that reflects and lets through all, or a memory limit that is too small
@@ -53,7 +57,11 @@ public:
   /// Adds rays to each element, so many as stated (rounded down to a multiple of the batches). Not
   /// thread-safe.
   void AddRays(const std::vector<std::int32_t>& rays, const StageProgress& stage = {});
-  int Rays(std::size_t element) const { return this->RaysOf[element]; }
+  /// Seconds that the next rays may take; 0: no limit.
+  void SetSecondsLeft(double seconds) { this->Options.SecondsLeft = seconds; }
+  /// Rays that an element's row is of: its own, or of the one whose row it takes.
+  int Rays(std::size_t element) const { return this->RaysOf[this->RowOf(element)]; }
+  int OwnRays(std::size_t element) const { return this->RaysOf[element]; }
 
   std::size_t Size() const override { return this->RaysOf.size(); }
   const std::vector<double>& Areas() const override;
@@ -104,6 +112,17 @@ private:
   void TraceBlock(
     std::size_t first, const std::vector<std::int32_t>& rays, Round& round, TracedBlock& traced);
   void CheckTraced() const;
+  void LeaveOut(
+    const std::vector<std::uint8_t>& late, std::vector<std::int32_t>& rays, Round& round) const;
+  void FindRows();
+  /// The element whose rays an element's row is of.
+  std::size_t RowOf(std::size_t element) const
+  {
+    return this->Around.empty() ? element : this->Nearest(element);
+  }
+  std::size_t Nearest(std::size_t element) const;
+  void TakeRows(
+    std::size_t nb, const std::vector<double>& mean, double* values, bool spread) const;
   static void Assemble(
     std::vector<TracedBlock>& blocks, std::size_t rows, std::size_t width, Round& round);
   void CheckMemory(const std::vector<std::int32_t>& rays) const;
@@ -125,6 +144,9 @@ private:
   std::size_t Width = 1; // weights of a path
   std::vector<Round> Rounds;
   std::vector<std::int32_t> RaysOf; // of all elements
+  /// Of each element the nearest before and behind it that have rays, itself where it has some; empty:
+  /// all have.
+  std::vector<std::array<std::int32_t, 2>> Around;
   std::vector<std::uint8_t> Leaks;  // 1: a path of this rank's element lost something
   std::vector<std::int32_t> CutOf;  // ... and how many were given up
   std::vector<double> Gain;         // 1/alpha, elements x Width; empty: all 1

@@ -8,6 +8,7 @@
 #include "radiometry/scene/InputError.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -19,6 +20,18 @@ namespace
 
 constexpr double MiB = 1024.0 * 1024.0;
 constexpr std::size_t BlockElements = 16;
+
+/// A step that goes round all of n, far from one to the next.
+std::size_t Stride(std::size_t n)
+{
+  std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.618 * static_cast<double>(n)));
+  while (n > 1 && std::gcd(step, n) != 1)
+  {
+    ++step;
+  }
+  return step;
+}
+
 } // namespace
 
 /// Counts of paths whose bands differ, of a block's elements.
@@ -66,8 +79,10 @@ void MonteCarloOperator::CheckMemory(const std::vector<std::int32_t>& rays) cons
   }
 }
 
-void MonteCarloOperator::Trace(const std::vector<std::int32_t>& rays, const StageProgress& stage)
+void MonteCarloOperator::Trace(const std::vector<std::int32_t>& wanted, const StageProgress& stage)
 {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::int32_t> rays = wanted;
   this->CheckMemory(rays);
   Round round;
   round.Begin.assign(1, 0);
@@ -92,11 +107,26 @@ void MonteCarloOperator::Trace(const std::vector<std::int32_t>& rays, const Stag
       this->CheckTraced();
     }
     const std::size_t done = this->Options.Paths && blocks > 0 ? 1 : 0;
+    const bool timed = this->Options.SecondsLeft > 0.0 && !this->Options.Ranks;
+    // Where time may end it, blocks are taken from all over the scene, so that what is left out lies
+    // between others.
+    const std::size_t step = timed ? Stride(blocks - done) : 1;
+    std::vector<std::uint8_t> late(blocks, 0);
     ParallelFor(
       blocks - done, this->Options.Threads, part,
-      [&](
-        std::size_t k) { this->TraceBlock(firstBlock + k + done, rays, round, traced[k + done]); },
+      [&](std::size_t k) {
+        const std::size_t at = k * step % (blocks - done) + done;
+        if (timed && k > 0 &&
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
+            this->Options.SecondsLeft)
+        {
+          late[at] = 1;
+          return;
+        }
+        this->TraceBlock(firstBlock + at, rays, round, traced[at]);
+      },
       5e-7 * BlockElements * std::max(1, most));
+    this->LeaveOut(late, rays, round);
     if (this->Width > 1)
     {
       Assemble(traced, this->Share.End - this->Share.Begin, this->Width, round);
@@ -123,7 +153,72 @@ void MonteCarloOperator::Trace(const std::vector<std::int32_t>& rays, const Stag
   }
   part.Begin = part.End;
   part.End = stage.End;
+  this->FindRows();
   this->Summarise(part);
+}
+
+/// What came too late has no rays in this round.
+void MonteCarloOperator::LeaveOut(
+  const std::vector<std::uint8_t>& late, std::vector<std::int32_t>& rays, Round& round) const
+{
+  if (std::none_of(late.begin(), late.end(), [](std::uint8_t l) { return l != 0; }))
+  {
+    return;
+  }
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row + 1 < round.Begin.size(); ++row)
+  {
+    const std::size_t i = this->Share.Begin + row;
+    const std::size_t from = round.Begin[row], to = from + static_cast<std::size_t>(rays[i]);
+    round.Begin[row] = kept;
+    if (late[i / BlockElements - this->Share.Begin / BlockElements])
+    {
+      rays[i] = 0;
+      continue;
+    }
+    std::copy(round.Hit.begin() + static_cast<std::ptrdiff_t>(from),
+      round.Hit.begin() + static_cast<std::ptrdiff_t>(to),
+      round.Hit.begin() + static_cast<std::ptrdiff_t>(kept));
+    kept += to - from;
+  }
+  round.Begin.back() = kept;
+  round.Hit.resize(kept);
+}
+
+void MonteCarloOperator::FindRows()
+{
+  const std::size_t n = this->Size();
+  this->Around.clear();
+  if (std::all_of(this->RaysOf.begin(), this->RaysOf.end(), [](std::int32_t r) { return r > 0; }))
+  {
+    return;
+  }
+  this->Around.assign(n, { -1, -1 });
+  for (std::size_t side = 0; side < 2; ++side)
+  {
+    std::int32_t last = -1;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const std::size_t i = side == 0 ? k : n - 1 - k;
+      last = this->RaysOf[i] > 0 ? static_cast<std::int32_t>(i) : last;
+      this->Around[i][side] = last;
+    }
+  }
+  for (auto& around : this->Around)
+  {
+    around[0] = around[0] < 0 ? around[1] : around[0];
+    around[1] = around[1] < 0 ? around[0] : around[1];
+  }
+}
+
+std::size_t MonteCarloOperator::Nearest(std::size_t element) const
+{
+  const auto before = static_cast<std::size_t>(this->Around[element][0]);
+  const auto behind = static_cast<std::size_t>(this->Around[element][1]);
+  const auto distance = [element](std::size_t i) {
+    return i > element ? i - element : element - i;
+  };
+  return distance(behind) < distance(before) ? behind : before;
 }
 
 void MonteCarloOperator::CheckTraced() const

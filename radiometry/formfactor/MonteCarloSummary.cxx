@@ -119,6 +119,11 @@ void MonteCarloOperator::FindRowSums(const StageProgress& stage)
     this->Options.Ranks->Gather(
       this->RowSums.data(), RankShare::Begins(*this->Options.Ranks, n, width));
   }
+  for (std::size_t i = 0; i < this->Around.size(); ++i)
+  {
+    std::copy_n(
+      this->RowSums.data() + this->RowOf(i) * width, width, this->RowSums.data() + i * width);
+  }
 }
 
 void MonteCarloOperator::FindComponents(const StageProgress& stage)
@@ -148,6 +153,10 @@ void MonteCarloOperator::FindComponents(const StageProgress& stage)
       }
     },
     5.0 * RaySeconds * static_cast<double>(this->Total / static_cast<std::int64_t>(n + 1) + 1));
+  for (std::size_t i = 0; i < this->Around.size(); ++i)
+  {
+    sets.Join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(this->RowOf(i)));
+  }
   // Over ranks: each knows its own links; the least number known of a set goes round until no rank
   // knows better.
   std::vector<double> least(n);
@@ -196,6 +205,10 @@ void MonteCarloOperator::FindBalance(const StageProgress& stage)
   {
     this->Options.Ranks->Gather(leaks.data(), RankShare::Begins(*this->Options.Ranks, n));
   }
+  for (std::size_t i = 0; i < this->Around.size(); ++i)
+  {
+    leaks[i] = leaks[this->RowOf(i)];
+  }
   const std::size_t components = n == 0
     ? 0
     : static_cast<std::size_t>(*std::max_element(this->Component.begin(), this->Component.end())) +
@@ -222,6 +235,14 @@ void MonteCarloOperator::FindBalance(const StageProgress& stage)
     weight[k] = gain > 0.0 ? areas[k / width] / gain : 0.0;
     total[k % width] += weight[k];
   }
+  std::vector<double> rowWeight = weight; // of all elements that take a row
+  for (std::size_t i = 0; i < this->Around.size(); ++i)
+  {
+    for (std::size_t b = 0; b < width && this->RowOf(i) != i; ++b)
+    {
+      rowWeight[this->RowOf(i) * width + b] += weight[i * width + b];
+    }
+  }
   constexpr double Unit = 0x1p-62;
   std::vector<std::int64_t> column(n * width, 0);
   {
@@ -240,7 +261,7 @@ void MonteCarloOperator::FindBalance(const StageProgress& stage)
         for (std::size_t b = 0; b < width; ++b)
         {
           each[b] = total[b] > 0.0
-            ? weight[i * width + b] / (total[b] * Unit * std::max(1, this->RaysOf[i]))
+            ? rowWeight[i * width + b] / (total[b] * Unit * std::max(1, this->RaysOf[i]))
             : 0.0;
           whole[b] = std::llround(each[b]);
         }
@@ -289,7 +310,8 @@ void MonteCarloOperator::FindBalance(const StageProgress& stage)
   for (std::size_t k = 0; k < n * width; ++k)
   {
     auto& greatest = ray[static_cast<std::size_t>(this->Component[k / width]) * width + k % width];
-    greatest = std::max(greatest, weight[k] / std::max(1, this->RaysOf[k / width]));
+    greatest = std::max(greatest,
+      this->OwnRays(k / width) > 0 ? rowWeight[k] / this->RaysOf[k / width] : 0.0);
   }
   for (std::size_t k = 0; k < n * width; ++k)
   {

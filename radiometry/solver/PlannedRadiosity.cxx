@@ -94,6 +94,30 @@ void FindVisibility(const Scene& scene, const OcclusionScene& occluders,
   }
 }
 
+/// How many reflections were counted, or matter, and what the others would add.
+void TellBounces(
+  const RadiosityResult& result, const RadiosityOptions& options, EffectDecision& decision)
+{
+  if (!decision.Simulated)
+  {
+    return;
+  }
+  const auto bounces = [](double n) {
+    return std::to_string(static_cast<long long>(n)) + (n == 1.0 ? " bounce" : " bounces");
+  };
+  if (options.MaximumBounces > 0)
+  {
+    decision.Why += "; " + bounces(options.MaximumBounces) +
+      " as asked (the bound is on what all further ones would add)";
+    decision.Bound = std::max(decision.Bound, result.BouncesLeftOut);
+  }
+  else if (result.BouncesThatMatter > 0.0 && std::isfinite(result.BouncesThatMatter))
+  {
+    decision.Why += "; all bounces are counted, about " + bounces(result.BouncesThatMatter) +
+      (result.BouncesThatMatter == 1.0 ? " matters" : " matter") + " at the tolerance";
+  }
+}
+
 /// No light is negative: what the correction of a coarse exchange pushed below zero is 0, and its
 /// error says by how much. A value or an error without a number is never handed out.
 void Complete(FieldValues& field, const char* where)
@@ -228,6 +252,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   AddDropped(plan.DroppedBound(), { &out.Cells.Irradiance, &out.Cells.Radiosity,
     &out.PointIrradiance, &out.PointRadiosity });
   effects.Bound(GreatestValue({ &out.Cells.Irradiance, &out.PointIrradiance }));
+  TellBounces(out.Cells, options, plan[Effect::Interreflection]);
   out.Effects = plan.Decisions();
   out.Cost = out.Cells.Cost;
   out.Cost.Seconds = clock.Elapsed();

@@ -236,6 +236,35 @@ void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage
     level = this->Next(advance, std::move(level), coarsest, part(0.0, 0.2, "direct light"));
   }
   this->Predict(0.0, part(0.0, 0.0, "solve"));
+  this->CountBounces(*level);
+}
+
+void RadiosityRun::CountBounces(const RadiosityLevel& level)
+{
+  this->Result.BouncesLeftOut = level.LeftOut;
+  if (this->Context.Options.MaximumBounces > 0 || !this->Context.Options.Interreflection)
+  {
+    return;
+  }
+  // Each bounce adds some share of the one before: as E = E_0 (1 + s + s^2 ...), on average.
+  const std::size_t nb = this->Context.Bands;
+  std::vector<double> emitted(level.Gathered.size(), 0.0);
+  if (level.Emitters.Empty())
+  {
+    level.F->Apply(level.Optics.Exitance.data(), emitted.data(), static_cast<int>(nb));
+  }
+  double first = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < level.Irradiance.size(); ++k)
+  {
+    const double area = level.Elements.GetAreas()[k / nb];
+    first += area * (level.First[k] + emitted[k]);
+    all += area * level.Irradiance[k];
+  }
+  const double share = all > 0.0 ? std::clamp(1.0 - first / all, 0.0, 1.0) : 0.0;
+  const double tolerance = this->Context.Options.RelativeTolerance;
+  this->Result.BouncesThatMatter = share <= 0.0 || tolerance <= 0.0 || tolerance >= 1.0 ? 0.0
+    : share >= 1.0 ? std::numeric_limits<double>::infinity()
+                   : std::max(0.0, std::ceil(std::log(tolerance) / std::log(share)) - 1.0);
 }
 
 } // namespace radiometry

@@ -93,6 +93,8 @@ struct RadiosityRun
   bool Resume(const StageProgress& stage);
   /// Operator, solution, and values with their errors.
   bool SolveLevel(RadiosityLevel& level, RadiosityState& state, const StageProgress& stage);
+  /// What reflections beyond those that were counted, or that matter, would add.
+  void CountBounces(const RadiosityLevel& level);
   /// Why the run ends here; empty: it goes on.
   std::string Ended(bool met, const RadiosityLevel& level, const ElementSet& coarsest);
 

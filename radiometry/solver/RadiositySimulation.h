@@ -99,6 +99,8 @@ struct RadiosityResult
   ConvergenceRecord Convergence;
   std::vector<std::pair<std::string, double>> Seconds; // by stage
   ClosureReport Closure;
+  double BouncesLeftOut = 0.0; // bound on what bounces past MaximumBounces would add to any value, W/m^2
+  double BouncesThatMatter = 0.0; // after which the rest is below the tolerance on average; 0: not told
   std::size_t Elements = 0;
   int Iterations = 0;
   double MetShare = 0.0; // of the cells, and of their area, that meets the tolerance (the lesser)

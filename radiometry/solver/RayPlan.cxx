@@ -17,7 +17,7 @@ namespace
 constexpr double Finished = 0.965;
 /// What neighbours need counts that much.
 constexpr double Neighbourhood = 0.6;
-constexpr double MostRays = 1 << 20; // of an element
+constexpr double MostRays = 65536.0; // of an element
 constexpr double LeastMore = 1.2; // fewer are not worth a step
 constexpr double FewRays = 256.0, FewStep = 8.0, ManyStep = 64.0;
 
@@ -27,8 +27,32 @@ struct Candidate
   std::size_t Side, Cell;
 };
 
+/// By what factor each cell needs more rays; infinite where no number that is to be had will do.
+std::array<std::vector<double>, 2> Needs(const RadiosityLevel& level, const CellStates& states)
+{
+  std::array<std::vector<double>, 2> needs;
+  for (std::size_t side = 0; side < 2; ++side)
+  {
+    for (const CellState& s : states[side])
+    {
+      needs[side].push_back(s.RayNeed());
+    }
+  }
+  const std::vector<Patch>& patches = level.Elements.GetPatches();
+  for (std::size_t e = 0; e < patches.size(); ++e)
+  {
+    double& need = needs[patches[e].Side][static_cast<std::size_t>(patches[e].Cell)];
+    if (need > 1.0 && need * level.Carlo->Rays(e) > MostRays)
+    {
+      need = std::numeric_limits<double>::infinity();
+    }
+  }
+  return needs;
+}
+
 /// Marks the cells to finish, cheapest first. Returns the share that is beyond rays.
-double Choose(const CellStates& states, std::array<std::vector<std::uint8_t>, 2>& chosen)
+double Choose(const CellStates& states, const std::array<std::vector<double>, 2>& needs,
+  std::array<std::vector<std::uint8_t>, 2>& chosen)
 {
   std::vector<Candidate> candidates;
   double area = 0.0, count = 0.0, openArea = 0.0, open = 0.0;
@@ -44,7 +68,7 @@ double Choose(const CellStates& states, std::array<std::vector<std::uint8_t>, 2>
       }
       area += s.Area;
       count += 1.0;
-      const double need = s.RayNeed();
+      const double need = needs[side][c];
       if (std::isfinite(need))
       {
         candidates.push_back({ need, side, c });
@@ -77,7 +101,8 @@ RayPlan PlanRays(
 {
   RayPlan plan;
   std::array<std::vector<std::uint8_t>, 2> chosen;
-  plan.Open = Choose(states, chosen);
+  const std::array<std::vector<double>, 2> needs = Needs(level, states);
+  plan.Open = Choose(states, needs, chosen);
   const std::size_t n = level.Elements.Size();
   const std::vector<Patch>& patches = level.Elements.GetPatches();
   std::vector<double> need(n, 0.0);
@@ -88,7 +113,7 @@ RayPlan PlanRays(
   {
     const Patch& p = patches[e];
     const auto c = static_cast<std::size_t>(p.Cell);
-    need[e] = chosen[p.Side][c] ? states[p.Side][c].RayNeed() : 0.0;
+    need[e] = chosen[p.Side][c] ? needs[p.Side][c] : 0.0;
     const auto g = static_cast<std::size_t>(group[e]);
     together[g] += need[e] * level.Carlo->Rays(e);
     members[g] += 1.0;
@@ -104,7 +129,8 @@ RayPlan PlanRays(
     plan.Wanted += std::max(has, wanted);
     if (wanted >= LeastMore * has)
     {
-      const double more = std::min(wanted, (has < FewRays ? FewStep : ManyStep) * has) - has;
+      const double more = std::min(wanted, (has < FewRays ? FewStep : ManyStep) * has) -
+        level.Carlo->OwnRays(e);
       plan.Rays[e] = static_cast<std::int32_t>(
         MonteCarloOperator::Batches * std::ceil(more / MonteCarloOperator::Batches));
       plan.Total += plan.Rays[e];
