@@ -81,7 +81,6 @@ void MonteCarloOperator::CheckMemory(const std::vector<std::int32_t>& rays) cons
 
 void MonteCarloOperator::Trace(const std::vector<std::int32_t>& wanted, const StageProgress& stage)
 {
-  const auto start = std::chrono::steady_clock::now();
   std::vector<std::int32_t> rays = wanted;
   this->CheckMemory(rays);
   Round round;
@@ -100,6 +99,7 @@ void MonteCarloOperator::Trace(const std::vector<std::int32_t>& wanted, const St
   StageProgress part = stage;
   part.End = stage.Begin + 0.9 * (stage.End - stage.Begin);
   this->Occluders->PrepareRays(this->Options.Threads);
+  const auto start = std::chrono::steady_clock::now();
   Collectively(this->Options.Ranks, [&] {
     if (this->Options.Paths && blocks > 0)
     {

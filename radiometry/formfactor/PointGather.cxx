@@ -7,6 +7,7 @@
 #include "radiometry/visibility/PointStarts.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,7 @@ namespace
 constexpr std::size_t Batches = 8;
 constexpr std::uint32_t FewestRays = 32; // a batch
 constexpr std::uint32_t MostRays = 512;
+constexpr std::uint32_t LateRays = 4;
 
 /// What all points know.
 struct Surroundings
@@ -74,10 +76,12 @@ public:
   }
 
   /// Traces until the tolerance is met; values and standard errors of the point.
-  void Run(double absoluteTolerance, double* values, double* errors)
+  /// `late`: whether time is up, when as few rays as tell an error have to do.
+  template <class Late>
+  void Run(double absoluteTolerance, const Late& late, double* values, double* errors)
   {
     std::uint32_t done = 0;
-    for (std::uint32_t end = FewestRays; end <= MostRays; end *= 2)
+    for (std::uint32_t end = late() ? LateRays : FewestRays; end <= MostRays; end *= 2)
     {
       for (std::size_t batch = 0; batch < Batches; ++batch)
       {
@@ -85,7 +89,7 @@ public:
       }
       const bool fine = this->Estimate(absoluteTolerance) && done > 0;
       done = end;
-      if (fine)
+      if (fine || late())
       {
         break;
       }
@@ -239,6 +243,12 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
   occluders.PrepareRays(options.Threads);
   const RankShare share(options.Ranks, points.size());
   std::vector<std::int64_t> rays(share.End - share.Begin, 0);
+  const auto start = std::chrono::steady_clock::now();
+  const auto late = [&] {
+    return options.SecondsLeft > 0.0 &&
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
+      options.SecondsLeft;
+  };
   Collectively(options.Ranks, [&] {
     ParallelFor(
       rays.size(), options.Threads, stage,
@@ -246,7 +256,7 @@ GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
         const std::size_t i = share.Begin + own;
         Gather gather(all, points[i], i);
         gather.Run(
-          absoluteTolerance, result.Irradiance.data() + i * nb, result.Error.data() + i * nb);
+          absoluteTolerance, late, result.Irradiance.data() + i * nb, result.Error.data() + i * nb);
         rays[own] = gather.Rays;
       },
       1e-4);

@@ -26,6 +26,7 @@ struct GatherResult
 /// it counts for points that see few elements.
 ///   Error   spread of eight scrambled sequences, the larger of the last two estimates; the
 ///           sequences are continued until both are some half of the tolerance, or 8 x 512 rays
+///   Time    past options.SecondsLeft (above 0) each point has 8 x 4 rays, if it has none yet
 GatherResult GatherAtPoints(const Scene& scene, const OcclusionScene& occluders,
   const ElementSet& elements, const std::vector<double>& radiosity,
   const std::vector<double>& radiosityError, int bands, const std::vector<SurfacePoint>& points,

@@ -94,6 +94,20 @@ void FindVisibility(const Scene& scene, const OcclusionScene& occluders,
   }
 }
 
+/// What is left of a time budget, between the run and what follows it.
+void ShareTime(const std::vector<SurfacePoint>& points, RadiosityOptions& options)
+{
+  if (options.TimeBudget <= 0.0)
+  {
+    return;
+  }
+  constexpr double ofPoints = 0.35, ofVisibility = 0.15;
+  const double left = std::max(1e-3, options.TimeBudget - options.SecondsBefore);
+  options.SecondsForPoints = points.empty() ? 0.0 : ofPoints * left;
+  options.TimeBudget =
+    left * (1.0 - (options.LightVisibility ? ofVisibility : 0.0)) - options.SecondsForPoints;
+}
+
 /// How many reflections were counted, or matter, and what the others would add.
 void TellBounces(
   const RadiosityResult& result, const RadiosityOptions& options, EffectDecision& decision)
@@ -189,7 +203,9 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   {
     kept.Load(options.LoadOperator, scene, options);
   }
+  const double budget = options.TimeBudget;
   options.SecondsBefore = clock.Elapsed();
+  ShareTime(points, options);
   options.PointsAfter = points.size();
   auto made = std::make_unique<RadiositySimulation>(scene, options, kept);
   RadiositySimulation& simulation = *made;
@@ -231,9 +247,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
 
   if (options.LightVisibility)
   {
-    const double left = options.TimeBudget > 0.0
-      ? std::max(1e-9, options.TimeBudget - clock.Elapsed())
-      : 0.0;
+    const double left = budget > 0.0 ? std::max(1e-9, budget - clock.Elapsed()) : 0.0;
     FindVisibility(scene, occluders, points, cells, options, left, monitor, out);
   }
   for (const auto& [stage, seconds] : out.Cells.Seconds)

@@ -140,6 +140,7 @@ void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& sta
       rays = std::clamp(0.2e6 * this->Left() / n, 16.0, rays);
     }
     rays = std::min(rays, 0.8 * static_cast<double>(this->Context.Memory) / (4.0 * n));
+    exchange.SecondsLeft *= 0.5; // a solve follows, and perhaps more rays
     auto carlo = std::make_unique<MonteCarloOperator>(this->Context.Occluders, level.Elements,
       exchange, std::max(8, static_cast<int>(rays)), stage);
     level.Carlo = carlo.get();

@@ -15,6 +15,7 @@ namespace
 
 constexpr double MiB = 1024.0 * 1024.0;
 constexpr double PairSeconds = 4e-6;
+constexpr double LinkedSeconds = 3e-4; // of an element's links and what they need, on one thread
 /// Elements from which links between clusters are preferred to rays.
 constexpr std::size_t FewestLinked = 10000;
 /// Bytes a Monte Carlo operator takes for each element beside its rays, and the fewest rays.
@@ -167,13 +168,19 @@ RadiosityMethod RadiosityRun::Choose(const ElementSet& elements)
 
 RadiosityMethod RadiosityRun::ChooseForMany(std::size_t n, std::string& why) const
 {
-  const bool possible = HierarchicalOperator::LeastBytes(n) <= this->Context.Memory;
+  const bool fits = HierarchicalOperator::LeastBytes(n) <= this->Context.Memory;
+  const int threads =
+    this->Context.Options.Threads > 0 ? this->Context.Options.Threads : AvailableThreads();
+  const bool soon = LinkedSeconds * static_cast<double>(n) / threads < 0.6 * this->Left();
+  const bool possible = fits && soon;
   if (!this->Context.Options.Occlusion || (possible && n >= FewestLinked))
   {
     why = "; clusters of them exchange light over links";
     return RadiosityMethod::Hierarchical;
   }
-  why = possible ? "" : "; rays from each of them fit in the memory limit, links between clusters do not";
+  why = possible || n < FewestLinked ? ""
+    : fits ? "; rays from each of them can end when time does, links between clusters cannot"
+           : "; rays from each of them fit in the memory limit, links between clusters do not";
   return RadiosityMethod::MonteCarlo;
 }
 

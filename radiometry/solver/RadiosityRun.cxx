@@ -228,6 +228,9 @@ void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage
     }
     if (!advance.Rays.empty())
     {
+      level->Carlo->SetSecondsLeft(this->Context.Options.TimeBudget > 0.0
+          ? std::max(0.01, this->Left() - 1.5 * state.SolveSeconds)
+          : 0.0);
       level->ExchangeSeconds += this->Timed(
         "rays", [&] { level->Carlo->AddRays(advance.Rays, part(0.0, 0.8, "rays")); });
       level->SolvedFor = 0.0;

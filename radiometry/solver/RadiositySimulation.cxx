@@ -105,6 +105,7 @@ FieldValues RadiositySimulation::IrradianceAt(
   const RadiosityLevel& level = *m.Finest;
   ExchangeOptions exchange = m.Context.Sight();
   exchange.RelativeTolerance = m.Context.Options.RelativeTolerance;
+  const double left = m.Left() + m.Context.Options.SecondsForPoints;
   const auto part = [&](double from, double to, const char* name) {
     StageProgress p = stage;
     p.Begin = stage.Begin + from * (stage.End - stage.Begin);
@@ -113,7 +114,7 @@ FieldValues RadiositySimulation::IrradianceAt(
     return p;
   };
   DirectResult direct = ComputeDirectIrradiance(m.Context.Geometry, m.Context.Occluders, points,
-    m.Context.Direct(m.Left()), part(0.0, 0.2, "direct light at points"));
+    m.Context.Direct(left), part(0.0, 0.2, "direct light at points"));
   out.Values = std::move(direct.Irradiance);
   out.Errors = std::move(direct.Error);
   if (!level.Emitters.Empty())
@@ -130,7 +131,7 @@ FieldValues RadiositySimulation::IrradianceAt(
   {
     const SpecularLight mirrored = SpecularLightAt(m.Context.Geometry, m.Context.Occluders,
       level.Elements, level.Mirrored, level.Emitters, *m.Context.Paths, points,
-      m.Context.Mirrored(m.Left()), part(0.3, 0.4, "light over mirrors at points"));
+      m.Context.Mirrored(left), part(0.3, 0.4, "light over mirrors at points"));
     for (std::size_t k = 0; k < out.Values.size(); ++k)
     {
       out.Values[k] += mirrored.Irradiance[k];
@@ -156,6 +157,11 @@ FieldValues RadiositySimulation::IrradianceAt(
     for (std::size_t k = 0; k < sampling.size(); ++k)
     {
       sampling[k] /= coverage;
+    }
+    if (m.Context.Options.TimeBudget > 0.0)
+    {
+      exchange.SecondsLeft =
+        std::max(1e-3, 0.9 * (m.Left() + m.Context.Options.SecondsForPoints));
     }
     const GatherResult g = GatherAtPoints(m.Context.Geometry, m.Context.Occluders, level.Elements,
       level.Leaving, sampling, static_cast<int>(m.Context.Bands), points, allowed, exchange,

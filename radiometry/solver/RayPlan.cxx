@@ -136,6 +136,17 @@ RayPlan PlanRays(
       plan.Total += plan.Rays[e];
     }
   }
+  // Too few to tell what they are good for: more of all.
+  for (std::size_t e = 0; e < n && !(plan.Total > 0.0); ++e)
+  {
+    const bool few = level.F->Samples() < static_cast<std::int64_t>(FewRays * static_cast<double>(n));
+    plan.Rays[e] = few ? static_cast<std::int32_t>((FewStep - 1.0) * level.Carlo->Rays(e)) : 0;
+  }
+  if (!(plan.Total > 0.0))
+  {
+    plan.Total = std::accumulate(plan.Rays.begin(), plan.Rays.end(), 0.0);
+    plan.Wanted = static_cast<double>(level.F->Samples()) + plan.Total;
+  }
   return plan;
 }
 
