@@ -17,7 +17,7 @@ namespace
 constexpr double Finished = 0.965;
 /// What neighbours need counts that much.
 constexpr double Neighbourhood = 0.6;
-constexpr double MostRays = 65536.0; // of an element
+constexpr double MostRays = 32768.0; // of an element
 constexpr double LeastMore = 1.2; // fewer are not worth a step
 constexpr double FewRays = 256.0, FewStep = 8.0, ManyStep = 64.0;
 
