@@ -5,6 +5,7 @@ than 1 %; and its values are the same.
 
 effect_instructions.py    the programs of tests/core/CMakeLists.txt; status 77 without valgrind
 """
+import functools
 import os
 import re
 import shutil
@@ -20,6 +21,7 @@ def programs():
     return os.path.join(os.environ["RADIOMETRY_BUILD_DIR"], "bin")
 
 
+@functools.lru_cache(maxsize=None)
 def count(program, scene):
     """Instructions of the simulation of a scene, and what the program printed of its values."""
     run = subprocess.run(
