@@ -292,9 +292,10 @@ int main(int argc, char** argv)
     "Single precision saves at most a third of a kernel's time, but loses all digits where the closed "
     "forms subtract nearly equal numbers (grazing light, slivers, far pairs) and in the metres of UTM, "
     "and a row sum of 1e5 factors is off by what decides a cavity of reflectance 0.999. In double the "
-    "same formulas keep 9 digits or more in all but the most extreme of these cases, for which the core "
-    "has other forms; so it computes in double, recentres coordinates in double, and leaves single "
-    "precision to Embree's search for candidates, whose hits near either end are decided again.";
+    "same errors are a billion times smaller, and for the cases that are still bad the core has other "
+    "forms or states the rounding as error; so it computes in double, recentres coordinates in double, "
+    "and leaves single precision to Embree's search for candidates, whose hits near either end are "
+    "decided again.";
   std::cout << out.dump(1) << '\n';
   return out["closed_form_check"].get<double>() < 1e-17 ? 0 : 1;
 }
