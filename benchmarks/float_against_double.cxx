@@ -292,7 +292,7 @@ int main(int argc, char** argv)
     "Single precision saves at most a third of a kernel's time, but loses all digits where the closed "
     "forms subtract nearly equal numbers (grazing light, slivers, far pairs) and in the metres of UTM, "
     "and a row sum of 1e5 factors is off by what decides a cavity of reflectance 0.999. In double the "
-    "same errors are a billion times smaller, and for the cases that are still bad the core has other "
+    "same errors are 5e8 times smaller, and for the cases that are still bad the core has other "
     "forms or states the rounding as error; so it computes in double, recentres coordinates in double, "
     "and leaves single precision to Embree's search for candidates, whose hits near either end are "
     "decided again.";
