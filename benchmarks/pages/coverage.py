@@ -50,7 +50,7 @@ def random_scenes(data):
          "all together"], rows)
     rows = []
     for name, label in (("direct", "Irradiance"), ("radiosity", "Radiosity")):
-        for e in data[name]["effects"]:
+        for e in (e for e in data[name]["effects"] if e["values"]):
             rows.append([label, e["effect"], e["scenes"], e["dropped_by_auto"], e["values"],
                          e["beyond_bound"], number(e["bound_over_change_median"])])
     return text + "\n\n" + table(["filter", "effect Off", "scenes", "dropped by Auto", "values",
