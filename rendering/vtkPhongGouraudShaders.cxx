@@ -10,6 +10,8 @@
 #include "vtkPhongGouraudGSDec.h"
 #include "vtkPhongGouraudVS.h"
 #include "vtkPhongGouraudVSDec.h"
+#include "vtkRadiometryExtendedLights.h"
+#include "vtkRadiometryLightSums.h"
 #include "vtkRadiometryLights.h"
 
 #include "vtkActor.h"
@@ -35,6 +37,14 @@ void Replace(vtkShader* shader, const char* tag, const std::string& text)
   std::string source = shader->GetSource();
   vtkShaderProgram::Substitute(source, tag, text, false);
   shader->SetSource(source);
+}
+
+/// The lighting model.
+std::string LightText(const ShaderFeatures& features)
+{
+  return ExpandShader(vtkRadiometryLights, features) +
+    ExpandShader(vtkRadiometryExtendedLights, features) +
+    ExpandShader(vtkRadiometryLightSums, features);
 }
 
 } // namespace
@@ -182,7 +192,7 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
     vertex.erase("Spot");
   }
   Replace(shaders[vtkShader::Vertex], "//VTK::Light::Dec",
-    ExpandShader(vtkPhongGouraudVSDec, features) + ExpandShader(vtkRadiometryLights, vertex));
+    ExpandShader(vtkPhongGouraudVSDec, features) + LightText(vertex));
   Replace(shaders[vtkShader::Vertex], "//VTK::Light::Impl",
     ExpandShader(vtkPhongGouraudVS, vertex));
   Replace(shaders[vtkShader::Geometry], "//VTK::Light::Dec",
@@ -190,7 +200,7 @@ void vtkPhongGouraudHelper::ReplaceShaderLight(ShaderMap shaders, vtkRenderer* r
   Replace(shaders[vtkShader::Geometry], "//VTK::Light::Impl",
     ExpandShader(vtkPhongGouraudGS, features));
   Replace(shaders[vtkShader::Fragment], "//VTK::Light::Dec",
-    ExpandShader(vtkPhongGouraudFSDec, features) + ExpandShader(vtkRadiometryLights, fragment));
+    ExpandShader(vtkPhongGouraudFSDec, features) + LightText(fragment));
   Replace(shaders[vtkShader::Fragment], "//VTK::Light::Impl",
     ExpandShader(vtkPhongGouraudFS, features));
 }

@@ -29,8 +29,9 @@ SHINE = "Specular NeedsPower"
 def lines_of_features():
     """{line: set of the features that each of its occurrences stands under}"""
     owners = {}
-    for path in glob.glob(os.path.join(ROOT, "rendering", "glsl", "vtk*Gouraud*.glsl")) + [
-            os.path.join(ROOT, "rendering", "glsl", "vtkRadiometryLights.glsl")]:
+    folder = os.path.join(ROOT, "rendering", "glsl")
+    for path in glob.glob(os.path.join(folder, "vtk*Gouraud*.glsl")) + glob.glob(
+            os.path.join(folder, "vtkRadiometry*.glsl")):
         stack = []
         with open(path, encoding="utf-8") as file:
             for raw in file:

@@ -205,8 +205,8 @@ def test_a_plain_scene_pays_nothing():
         needs = set(w.mapper.GetShaderFeatures().split())
         lit_at = "vertex" if shading == "Gouraud" else "fragment"
         known, cut = set(), 0
-        for name in ("VSDec", "VS", "FSDec", "FS", "Lights"):
-            path = "vtkRadiometryLights" if name == "Lights" else "vtkPhongGouraud" + name
+        for name in ("VSDec", "VS", "FSDec", "FS", "Lights", "ExtendedLights", "LightSums"):
+            path = ("vtkRadiometry" if "Light" in name else "vtkPhongGouraud") + name
             with open(os.path.join(GLSL, path + ".glsl"), encoding="utf-8") as file:
                 whole = file.read()
             effects = set(re.findall(r"//@if !?(\w+)", whole)) - needs
@@ -216,9 +216,9 @@ def test_a_plain_scene_pays_nothing():
             assert not effects & set(re.findall(r"//@if !?(\w+)", lean))
             holder = {"V": vertex, "F": fragment}.get(name[0]) or (
                 vertex if lit_at == "vertex" else fragment)
-            for where in ([vertex, fragment] if name == "Lights" else [holder]):
+            for where in ([vertex, fragment] if "Light" in name else [holder]):
                 features = set(needs)
-                if name in ("Lights", "VS", "FS") and (where is vertex) != (lit_at == "vertex"):
+                if ("Light" in name or name in ("VS", "FS")) and (where is vertex) != (lit_at == "vertex"):
                     if name != "FS":  # sums of lights stand at one place
                         features -= {"Lights", "Finite", "NeedsPower", "Spot", "NeedsNormal"}
                 piece = expanded(lean, features)
