@@ -3,7 +3,6 @@
 
 #include "BandWavelengths.h"
 #include "PhotometricNames.h"
-#include "RunCostData.h"
 #include "SurfacePoints.h"
 #include "radiometry/imaging/ColorMatching.h"
 #include "radiometry/scene/ArrayNames.h"
@@ -16,13 +15,11 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkTable.h"
 
 #include <algorithm>
 #include <array>
@@ -113,15 +110,6 @@ void KeepStrings(
       values.push_back(value);
     }
   }
-}
-
-template <typename Array>
-Array* AddColumn(vtkTable* table, const char* name)
-{
-  vtkNew<Array> column;
-  column->SetName(name);
-  table->AddColumn(column);
-  return column; // kept alive by the table
 }
 
 } // namespace
@@ -315,7 +303,7 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   KeepStrings(data, "RadiometryOptions", ": ", options);
   AddStrings(data, "RadiometryOptions", options);
   AddStrings(data, "RadiometryOutcome", { result.Outcome });
-  AddStrings(data, names::EffectPlan, ExplainEffects(result));
+  AddStrings(data, names::EffectPlan, ReportPlan(result).Sentences());
   AddRunCost(result.Cost, data);
   if (!result.Method.empty())
   {
@@ -323,90 +311,17 @@ void RadiometricResults::AddFieldData(const Result& result, vtkDataObject* outpu
   }
 }
 
-std::vector<std::string> ExplainEffects(const vtkRadiometricFilter::Result& result)
+PlanReport ReportPlan(const vtkRadiometricFilter::Result& result)
 {
-  std::vector<std::string> lines;
-  for (std::size_t k = 0; k < result.Effects.size(); ++k)
-  {
-    if (result.Effects[k].Known)
-    {
-      lines.push_back(radiometry::Explain(
-        static_cast<radiometry::Effect>(k), result.Effects[k], result.BoundUnit));
-    }
-  }
+  PlanReport report(result.BoundUnit);
+  report.Add(result.Effects);
   for (const auto& o : result.Omissions)
   {
-    radiometry::EffectDecision row;
-    row.Present = row.Dropped = true;
-    row.Why = o.Why;
-    row.Bound = o.Bound;
-    lines.push_back(radiometry::Explain(o.Name, row, result.BoundUnit));
-  }
-  return lines;
-}
-
-void RadiometricResults::WriteEffects(const Result& result, vtkTable* table) const
-{
-  auto* effect = AddColumn<vtkStringArray>(table, "Effect");
-  auto* switches = AddColumn<vtkStringArray>(table, "Switch");
-  auto* decision = AddColumn<vtkStringArray>(table, "Decision");
-  auto* bound = AddColumn<vtkDoubleArray>(table, "Bound");
-  auto* unit = AddColumn<vtkStringArray>(table, "Unit");
-  auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
-  auto* why = AddColumn<vtkStringArray>(table, "Why");
-  const auto add = [&](const std::string& name, const char* wish, const char* what,
-                     const std::string& reason, double value, double spent) {
-    effect->InsertNextValue(name);
-    switches->InsertNextValue(wish);
-    decision->InsertNextValue(what);
-    bound->InsertNextValue(value);
-    unit->InsertNextValue(result.BoundUnit);
-    seconds->InsertNextValue(spent);
-    why->InsertNextValue(reason);
-  };
-  for (std::size_t k = 0; k < result.Effects.size(); ++k)
-  {
-    const radiometry::EffectDecision& d = result.Effects[k];
-    const auto which = static_cast<radiometry::Effect>(k);
-    if (d.Known)
-    {
-      add(radiometry::EffectName(which),
-        radiometry::HasSwitch(which) ? radiometry::SwitchName(d.Wish) : "",
-        radiometry::DecisionName(d), d.Why, d.Bound, d.Seconds);
-    }
-  }
-  for (const Result::Omission& o : result.Omissions)
-  {
-    add(o.Name, "", "dropped", o.Why, o.Bound, 0.0);
+    report.AddDropped(o.Name, o.Why, o.Bound);
   }
   for (const auto& [name, value] : result.ErrorParts)
   {
-    add(name, "", "estimated", "its part of IrradianceError, averaged over the surface", value, 0.0);
+    report.AddEstimate(name, "its part of IrradianceError, averaged over the surface", value);
   }
-}
-
-void RadiometricResults::WriteConvergence(const Result& result, vtkTable* table) const
-{
-  auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
-  auto* relative = AddColumn<vtkDoubleArray>(table, "EstimatedError");
-  auto* absolute = AddColumn<vtkDoubleArray>(table, "AbsoluteError");
-  auto* samples = AddColumn<vtkIdTypeArray>(table, "Samples");
-  auto* stage = AddColumn<vtkStringArray>(table, "Stage");
-  std::vector<vtkDoubleArray*> parts;
-  for (const std::string& name : result.Convergence.PartNames)
-  {
-    parts.push_back(AddColumn<vtkDoubleArray>(table, (name + names::ErrorSuffix).c_str()));
-  }
-  for (const auto& row : result.Convergence.Rows)
-  {
-    for (std::size_t k = 0; k < parts.size(); ++k)
-    {
-      parts[k]->InsertNextValue(k < row.Parts.size() ? row.Parts[k] : 0.0);
-    }
-    seconds->InsertNextValue(row.Seconds);
-    relative->InsertNextValue(row.RelativeError);
-    absolute->InsertNextValue(row.AbsoluteError);
-    samples->InsertNextValue(row.Samples);
-    stage->InsertNextValue(row.Stage);
-  }
+  return report;
 }

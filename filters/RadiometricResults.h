@@ -2,6 +2,7 @@
 #pragma once
 
 #include "RadiometricJob.h"
+#include "RunReport.h"
 #include "SceneAdapter.h"
 
 #include "radiometry/irradiance/LightVisibility.h"
@@ -17,14 +18,13 @@ class vtkCompositeDataSet;
 class vtkDataObject;
 class vtkFieldData;
 class vtkPolyData;
-class vtkTable;
 
 /// Hands the shares of lights of front and back over, where there are any.
 void AddShares(std::array<radiometry::LightShares, 2>& computed,
   std::vector<vtkRadiometricFilter::Result::Shares>& shares);
 
-/// A sentence for each row of the EffectPlan that is an effect or was left out.
-std::vector<std::string> ExplainEffects(const vtkRadiometricFilter::Result& result);
+/// What the run left out and what its errors are made of.
+PlanReport ReportPlan(const vtkRadiometricFilter::Result& result);
 
 /// Writes what a simulating filter computed onto its outputs.
 class RadiometricResults
@@ -47,8 +47,6 @@ public:
   /// `blocks`: those of the adapter, or what became of them when cells were cut.
   void WriteSurface(const Result& result, const std::vector<SceneAdapter::Block>& blocks,
     const SurfacePoints& points, vtkDataObject* output, vtkDataObject* input) const;
-  void WriteEffects(const Result& result, vtkTable* table) const;
-  void WriteConvergence(const Result& result, vtkTable* table) const;
 
 private:
   /// `numbers`: where each item's value is (below 0: it has none); empty: one after the other from

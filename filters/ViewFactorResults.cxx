@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactorResults.h"
 
-#include "RunCostData.h"
 #include "radiometry/scene/ArrayNames.h"
 #include "radiometry/scene/InputError.h"
 
@@ -199,6 +198,13 @@ void ViewFactorResults::AddFieldData(vtkDataObject* object) const
   AddString(data, "RadiometryOutcome", this->Result.Outcome);
   AddString(data, "RadiometryMethod", this->Result.Method);
   AddRunCost(this->Result.Cost, data);
+  vtkNew<vtkStringArray> lines;
+  lines->SetName(names::EffectPlan);
+  for (const std::string& line : this->Plan.Sentences())
+  {
+    lines->InsertNextValue(line);
+  }
+  data->AddArray(lines);
   AddNumber(data, "ClosureDefectBefore", this->Result.ClosureBefore);
   AddNumber(data, "ClosureDefectAfter", this->Result.ClosureAfter);
   AddNumber(data, "ReciprocityDefectBefore", this->Result.ReciprocityBefore);
@@ -268,67 +274,31 @@ void ViewFactorResults::WriteTable(bool environmentRows, vtkTable* table) const
   this->AddFieldData(table);
 }
 
-void ViewFactorResults::WriteEffects(
-  bool occlusion, bool backs, bool hasBacks, bool panes, vtkTable* table) const
+PlanReport ReportPlan(const radiometry::ViewFactorResult& result,
+  const std::array<radiometry::EffectSwitch, 2>& switches, bool backs, bool panes)
 {
-  auto* effect = AddColumn<vtkStringArray>(table, "Effect");
-  auto* decision = AddColumn<vtkStringArray>(table, "Decision");
-  auto* why = AddColumn<vtkStringArray>(table, "Why");
-  auto* bound = AddColumn<vtkDoubleArray>(table, "Bound");
-  auto* unit = AddColumn<vtkStringArray>(table, "Unit");
-  auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
-  const auto add = [&](const char* name, const char* what, const char* reason, double value) {
-    effect->InsertNextValue(name);
-    decision->InsertNextValue(what);
-    why->InsertNextValue(reason);
-    bound->InsertNextValue(value);
-    unit->InsertNextValue("1");
-    seconds->InsertNextValue(0.0);
-  };
-  if (!this->Result.OcclusionNeeded)
+  using radiometry::Effect;
+  std::vector<radiometry::EffectSwitch> wishes(radiometry::EffectCount);
+  wishes[static_cast<std::size_t>(Effect::Occlusion)] = switches[0];
+  wishes[static_cast<std::size_t>(Effect::BackFaces)] = switches[1];
+  radiometry::EffectPlan plan(wishes, "1");
+  plan.Decide(Effect::Occlusion, result.OcclusionNeeded, true,
+    "nothing stands between any two points of the surfaces", "surfaces may stand between others");
+  plan.Decide(
+    Effect::BackFaces, backs, true, "no cell is two-sided", "two-sided cells see with both sides");
+  plan.Decide(Effect::Transmission, panes, false, "all surfaces are opaque",
+    "a view factor takes every surface as opaque");
+  const std::pair<Effect, double> bounds[] = { { Effect::Occlusion, result.OcclusionBound },
+    { Effect::BackFaces, 1.0 }, { Effect::Transmission, 1.0 } };
+  for (const auto& [effect, bound] : bounds)
   {
-    add("Occlusion", "not needed", "nothing stands between any two points of the surfaces", 0.0);
+    plan[effect].Bound = plan.LeavesOut(effect) ? bound : 0.0;
   }
-  else if (occlusion)
-  {
-    add("Occlusion", "simulated", "surfaces may stand between others", 0.0);
-  }
-  else
-  {
-    add("Occlusion", "left out", "switched off", this->Result.OcclusionBound);
-  }
-  if (!hasBacks)
-  {
-    add("BackFaces", "not needed", "no cell is two-sided", 0.0);
-  }
-  else
-  {
-    add("BackFaces", backs ? "simulated" : "left out",
-      backs ? "two-sided cells see with both sides" : "switched off", backs ? 0.0 : 1.0);
-  }
-  add("Transmission", panes ? "left out" : "not needed",
-    panes ? "a view factor takes every surface as opaque" : "all surfaces are opaque",
-    panes ? 1.0 : 0.0);
-  add("Error: form factors", "estimated",
-    "truncation and rounding, in the mean over what is exchanged, relative",
-    this->Result.MeanTruncation);
-  add("Error: visibility", "estimated", "samples, in the mean over what is exchanged, relative",
-    this->Result.MeanSampling);
-}
-
-void ViewFactorResults::WriteConvergence(vtkTable* table) const
-{
-  auto* seconds = AddColumn<vtkDoubleArray>(table, "Seconds");
-  auto* relative = AddColumn<vtkDoubleArray>(table, "EstimatedError");
-  auto* absolute = AddColumn<vtkDoubleArray>(table, "AbsoluteError");
-  auto* samples = AddColumn<vtkIdTypeArray>(table, "Samples");
-  auto* stage = AddColumn<vtkStringArray>(table, "Stage");
-  for (const auto& row : this->Result.Convergence.Rows)
-  {
-    seconds->InsertNextValue(row.Seconds);
-    relative->InsertNextValue(row.RelativeError);
-    absolute->InsertNextValue(row.AbsoluteError);
-    samples->InsertNextValue(row.Samples);
-    stage->InsertNextValue(row.Stage);
-  }
+  PlanReport report(plan.BoundUnit());
+  report.Add(plan.Decisions());
+  report.AddEstimate("Error: form factors",
+    "truncation and rounding, in the mean over what is exchanged, relative", result.MeanTruncation);
+  report.AddEstimate("Error: visibility",
+    "samples, in the mean over what is exchanged, relative", result.MeanSampling);
+  return report;
 }

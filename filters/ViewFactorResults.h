@@ -3,9 +3,11 @@
 #ifndef ViewFactorResults_h
 #define ViewFactorResults_h
 
+#include "RunReport.h"
 #include "SceneAdapter.h"
 #include "radiometry/formfactor/ViewFactors.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -25,13 +27,19 @@ struct SurfacePatches
   SurfacePatches(const std::vector<SceneAdapter::Block>& blocks, const std::string& name);
 };
 
+/// What was left out of view factors and what their errors are made of. `switches`: of occlusion and
+/// of back faces; `backs`: some cell is two-sided; `panes`: some surface lets light through.
+PlanReport ReportPlan(const radiometry::ViewFactorResult& result,
+  const std::array<radiometry::EffectSwitch, 2>& switches, bool backs, bool panes);
+
 /// Writes view factors onto the filter's outputs.
 class ViewFactorResults
 {
 public:
-  ViewFactorResults(const radiometry::ViewFactorResult& result, const SurfacePatches& patches,
-    std::string options)
+  ViewFactorResults(const radiometry::ViewFactorResult& result, const PlanReport& plan,
+    const SurfacePatches& patches, std::string options)
     : Result(result)
+    , Plan(plan)
     , Patches(patches)
     , Options(std::move(options))
   {
@@ -40,15 +48,13 @@ public:
   void WriteSurface(const std::vector<SceneAdapter::Block>& blocks, vtkDataObject* output,
     vtkDataObject* input) const;
   void WriteTable(bool environmentRows, vtkTable* table) const;
-  /// `switches`: those of occlusion and back faces. `panes`: some surface lets light through.
-  void WriteEffects(bool occlusion, bool backs, bool hasBacks, bool panes, vtkTable* table) const;
-  void WriteConvergence(vtkTable* table) const;
 
 private:
   void AddFieldData(vtkDataObject* data) const;
   void AddCells(const SceneAdapter::Block& block, vtkPolyData* leaf) const;
 
   const radiometry::ViewFactorResult& Result;
+  const PlanReport& Plan;
   const SurfacePatches& Patches;
   std::string Options;
 };

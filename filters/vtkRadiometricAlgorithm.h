@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 class ControllerCommunicator;
@@ -78,6 +79,9 @@ public:
   /// Seconds that an execution with the present settings will take, by running the pilot of one;
   /// outputs stay empty until the next update, which goes on from there. Below 0: it cannot be said.
   double PredictSeconds();
+  /// A sentence an effect, line by line: why the last execution kept it or left it out, and what that
+  /// may change. Empty before the first one. The same as field data EffectPlan.
+  std::string Explain() const { return this->Explanation; }
   ///@{
   /// Memory that the run may take [MiB]. Default 0: half of the machine's.
   vtkSetMacro(MemoryLimit, double);
@@ -145,6 +149,7 @@ protected:
   double PredictedSeconds = -1.0;
   double ElapsedSeconds = 0.0;
   bool PilotOnly = false; // an execution ends where its cost is known
+  std::string Explanation;
   vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:

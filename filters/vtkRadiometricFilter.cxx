@@ -180,10 +180,8 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
   AddDose(result.Cells, this->ExposureTime);
   AddDose(result.Points, this->ExposureTime);
 
-  for (const std::string& line : ExplainEffects(result))
-  {
-    this->Explanation += line + '\n';
-  }
+  const PlanReport plan = ReportPlan(result);
+  this->Explanation = plan.Text();
   std::ostringstream options;
   options << "RelativeTolerance=" << this->RelativeTolerance
           << "; AbsoluteTolerance=" << this->AbsoluteTolerance
@@ -206,8 +204,8 @@ void vtkRadiometricFilter::Compute(const ControllerCommunicator* ranks,
     points, vtkDataObject::GetData(outputs, 0), input);
   if (!ranks || ranks->Rank() == 0) // tables of all ranks are put together by who reads them
   {
-    writer.WriteEffects(result, vtkTable::GetData(outputs, 1));
-    writer.WriteConvergence(result, vtkTable::GetData(outputs, 2));
+    plan.Write(vtkTable::GetData(outputs, 1));
+    WriteConvergence(result.Convergence, vtkTable::GetData(outputs, 2));
   }
   this->ElapsedSeconds = clock.Elapsed();
 }

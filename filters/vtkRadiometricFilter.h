@@ -163,9 +163,6 @@ public:
   vtkSetClampMacro(SpectralBands, int, AUTO, OFF);
   vtkGetMacro(SpectralBands, int);
   ///@}
-  /// A sentence an effect, line by line: why the last execution kept it or left it out, and what that
-  /// may change. Empty before the first one. The same as field data EffectPlan.
-  std::string Explain() const { return this->Explanation; }
 
 protected:
   vtkRadiometricFilter();
@@ -211,7 +208,6 @@ protected:
   int CandelaWebs = AUTO;
   int Mirrors = AUTO;
   int SpectralBands = AUTO;
-  std::string Explanation;
 
 private:
   /// The switches by effect.

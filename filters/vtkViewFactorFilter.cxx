@@ -34,6 +34,7 @@ void vtkViewFactorFilter::Compute(const ControllerCommunicator* ranks,
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const radiometry::ConvergenceRecord clock;
+  this->Explanation.clear();
   this->CheckLimits();
   const radiometry::Vec3 up{ this->SkyUp[0], this->SkyUp[1], this->SkyUp[2] };
   CheckRange("SkyUp", radiometry::Length(up), 1e-300, std::numeric_limits<double>::max(),
@@ -88,17 +89,20 @@ void vtkViewFactorFilter::Compute(const ControllerCommunicator* ranks,
        << this->SkyUp[1] << ',' << this->SkyUp[2] << "; MetersPerUnit=" << this->MetersPerUnit
        << "; CellsWithoutArea=" << adapter.CellsWithoutArea();
   const auto& sides = scene.Optics.TwoSided;
-  const ViewFactorResults writer(result, patches, text.str());
+  const PlanReport plan = ReportPlan(result,
+    { static_cast<radiometry::EffectSwitch>(this->Occlusion),
+      static_cast<radiometry::EffectSwitch>(this->BackFaces) },
+    std::find(sides.begin(), sides.end(), 1) != sides.end(), !scene.TriangleTransmittance.empty());
+  this->Explanation = plan.Text();
+  const ViewFactorResults writer(result, plan, patches, text.str());
   writer.WriteSurface(adapter.OwnBlocks(), vtkDataObject::GetData(outputs, 0), input);
   if (ranks && ranks->Rank() != 0)
   {
     return; // tables of all ranks are put together by who reads them
   }
   writer.WriteTable(this->EnvironmentRows, vtkTable::GetData(outputs, 1));
-  writer.WriteEffects(options.Occlusion, options.BackFaces,
-    std::find(sides.begin(), sides.end(), 1) != sides.end(),
-    !scene.TriangleTransmittance.empty(), vtkTable::GetData(outputs, 2));
-  writer.WriteConvergence(vtkTable::GetData(outputs, 3));
+  plan.Write(vtkTable::GetData(outputs, 2));
+  WriteConvergence(result.Convergence, vtkTable::GetData(outputs, 3));
 }
 
 void vtkViewFactorFilter::CopyMembers(vtkRadiometricAlgorithm* from)

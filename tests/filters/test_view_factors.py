@@ -424,6 +424,23 @@ def test_field_data_explain_the_result():
     close(strings(convergence, "Seconds"), sorted(strings(convergence, "Seconds")))
 
 
+def test_plan_says_what_was_left_out():
+    data, occluder = half_blocked(4)
+    f = view_factors(tagged(data, np.repeat([0, 1], 16)), occluder, PatchArray="Patch",
+                     Occlusion=2)
+    f.Update()
+    plan = f.GetOutputDataObject(2)
+    names = [plan.GetColumnName(k) for k in range(plan.GetNumberOfColumns())]
+    assert names == ["Effect", "Switch", "Decision", "Bound", "Unit", "Seconds", "Why"]
+    row = strings(plan, "Effect").index("Occlusion")
+    assert strings(plan, "Decision")[row] == "left out" and strings(plan, "Switch")[row] == "Off"
+    with_shadow = view_factors(tagged(data, np.repeat([0, 1], 16)), occluder, PatchArray="Patch")
+    change = table(f)[0, 1][0] - table(with_shadow)[0, 1][0]
+    assert 0.0 < change <= strings(plan, "Bound")[row]
+    assert "Occlusion is left out" in f.Explain()
+    assert f.Explain().splitlines() == list(field(f, "EffectPlan"))
+
+
 def test_predicts_its_time_and_keeps_its_budget():
     data, occluder = half_blocked(4)
     f = view_factors(tagged(data, np.repeat([0, 1], 16)), occluder, PatchArray="Patch",
