@@ -26,7 +26,7 @@ from accuracy.scenes import Scene, box_over_floor, lamp_over_floor, panel_over_f
 from accuracy.scenes import scene as accuracy_scene  # noqa: E402
 from accuracy.shapes import plane  # noqa: E402
 from accuracy.vtkdata import polydata, joined, lights, surface  # noqa: E402
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 import vtkradiometry as vr  # noqa: E402
 

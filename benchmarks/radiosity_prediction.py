@@ -19,7 +19,7 @@ import vtkradiometry as vr
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from radiosity.prediction_scenes import SCENES  # noqa: E402
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 METHODS = {"Auto": 0, "Dense": 1, "Hierarchical": 2, "MonteCarlo": 3}
 REFINEMENTS = {"Auto": 0, "On": 1, "Off": 2}
