@@ -27,7 +27,7 @@ from vtkradiometry.vtkRadiometryRendering import vtkLinearFloatPass, vtkPhongGou
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import frame_time  # noqa: E402
-from radiosity.record import provenance, write  # noqa: E402
+from provenance import provenance, write  # noqa: E402
 
 TOLERANCE = 0.5 / 255
 SECONDS = 4.0  # a scene

@@ -98,18 +98,18 @@ def saving(data):
 def predicted(found):
     figure, (scatter, bars) = plt.subplots(1, 2, figsize=(12.0, 5.0))
     for kind, colour, mark in (("Irradiance", BLUE, "s"), ("Radiosity", RED, "o")):
-        points = [(t, p) for _, k, p, t in found if k == kind]
+        points = [(t, p) for _, k, p, t, _ in found if k == kind]
         if points:
             scatter.loglog(*zip(*points), ls="", marker=mark, ms=5, alpha=0.6, color=colour, label=kind)
-    low = 0.5 * min(min(p, t) for _, _, p, t in found)
-    high = 2.0 * max(max(p, t) for _, _, p, t in found)
+    low = 0.5 * min(min(p, t) for _, _, p, t, _ in found)
+    high = 2.0 * max(max(p, t) for _, _, p, t, _ in found)
     ends = np.array([low, high])
     scatter.fill_between(ends, 0.5 * ends, 2.0 * ends, color=GREY, alpha=0.2, lw=0, label="factor of 2")
     scatter.plot(ends, ends, color="black", lw=1)
     scatter.set(xlim=ends, ylim=ends, xlabel="seconds that the run took", ylabel="seconds that it predicted")
     scatter.grid(alpha=0.25)
     scatter.legend(fontsize=10, loc="upper left")
-    ratios = np.array([p / t for _, _, p, t in found])
+    ratios = np.array([p / t for _, _, p, t, _ in found])
     edges = 2.0**np.arange(-3.25, 3.5, 0.5)
     bars.hist(np.clip(ratios, edges[0], edges[-1]), edges, color=GREY, edgecolor="white")
     bars.axvspan(0.5, 2.0, color=GREY, alpha=0.2, lw=0)

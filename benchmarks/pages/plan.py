@@ -80,32 +80,33 @@ def budgets(data):
 
 
 def predictions():
-    """(source, filter, predicted, actual) of every run on record that said something, and how many said
-    nothing."""
+    """(source, filter, predicted, actual, share of the run after which it was said) of every run on record
+    that said something, and how many said nothing."""
     found, silent = [], {}
 
-    def add(source, kind, predicted, seconds):
+    def add(source, kind, predicted, seconds, at):
         if predicted is None or predicted < 0.0 or not seconds:
             silent[source] = silent.get(source, 0) + 1
         else:
-            found.append((source, kind, predicted, seconds))
+            found.append((source, kind, predicted, seconds, min(1.0, (at or 0.0) / seconds)))
 
     curves, runs = result("accuracy-curves"), result("accuracy-runs")
     for row in (curves["rows"] if curves else []):
         for run in (row["programs"][0]["curve"] if "programs" in row else []):
             add("error against time", "Radiosity" if row["indirect"] else "Irradiance",
-                run["cost"].get("predicted"), run["cost"].get("seconds"))
+                *(run["cost"].get(name) for name in ("predicted", "seconds", "predictedAt")))
     for row in (runs["rows"] if runs else []):
         for note in row["notes"]:
             kind = "Radiosity" if "Radiosity" in note["filter"] else "Irradiance"
             what = note["what"].split(",")[0]
             source = {"saving": "what the plan saves", "budget": "budgets"}.get(what, "refinement")
-            add(source, kind, note.get("predicted"), note.get("seconds"))
+            add(source, kind, *(note.get(name) for name in ("predicted", "seconds", "predictedAt")))
     for name, kind in (("direct-prediction", "Irradiance"), ("radiosity-prediction", "Radiosity")):
         data = result(name)
         for row in (data.get("predictions") or data.get("runs") or [] if data else []):
             lower = {key.lower(): value for key, value in row.items()}
-            add(name, kind, lower.get("predicted", lower.get("predictedseconds")), lower.get("seconds"))
+            add(name, kind, lower.get("predicted", lower.get("predictedseconds")), lower.get("seconds"),
+                lower.get("predictedat"))
     return found, silent
 
 
@@ -114,29 +115,34 @@ def within(ratios, factor=2.0):
     return float((np.abs(np.log(ratios)) <= np.log(factor)).mean())
 
 
+def prediction_row(words, runs):
+    ratios = [predicted / seconds for _, _, predicted, seconds, _ in runs]
+    if not ratios:
+        return []
+    return [[*words, len(ratios), f"{np.median(ratios):.2f}", share(within(ratios)),
+             f"{min(ratios):.2g} – {max(ratios):.2g}", percent(float(np.median([r[4] for r in runs])))]]
+
+
 def prediction_table():
     found, silent = predictions()
     if not found:
         return None
     rows = []
-    for source in dict.fromkeys(s for s, *_ in found):
+    for source in dict.fromkeys(run[0] for run in found):
         for kind in ("Irradiance", "Radiosity"):
-            ratios = [p / t for s, k, p, t in found if (s, k) == (source, kind)]
-            if ratios:
-                rows.append([source, kind, len(ratios), f"{np.median(ratios):.2f}", share(within(ratios)),
-                             f"{min(ratios):.2f} – {max(ratios):.2f}"])
-    ratios = [p / t for _, _, p, t in found]
-    longer = [p / t for _, _, p, t in found if t > 0.1]
-    rows.append(["**all**", "", len(ratios), f"{np.median(ratios):.2f}", f"**{share(within(ratios))}**",
-                 f"{min(ratios):.2f} – {max(ratios):.2f}"])
-    if longer:
-        rows.append(["**of more than 0.1 s**", "", len(longer), f"{np.median(longer):.2f}",
-                     f"**{share(within(longer))}**", f"{min(longer):.2f} – {max(longer):.2f}"])
+            rows += prediction_row([source, kind], [r for r in found if r[:2] == (source, kind)])
+    for kind in ("Irradiance", "Radiosity"):
+        rows += prediction_row(["**all**", kind], [r for r in found if r[1] == kind])
+    rows += prediction_row(["**all**", "both"], found)
+    rows += prediction_row(["**all of more than 0.1 s**", "both"], [r for r in found if r[3] > 0.1])
+    rows += prediction_row(["**all said in the first half of the run**", "both"],
+                           [r for r in found if r[4] <= 0.5])
+    ratios = [predicted / seconds for _, _, predicted, seconds, _ in found]
     edges = [0.0, 0.25, 0.5, 0.7, 0.85, 1.0, 1.2, 1.4, 2.0, 4.0, np.inf]
     counts = np.histogram(ratios, edges)[0]
     words = [f"{a:g} – {b:g}" if b < np.inf else f"over {a:g}" for a, b in zip(edges, edges[1:])]
     text = table(["runs of", "filter", "runs", "median of predicted/actual", "within a factor of 2",
-                  "range"], rows)
+                  "range", "said after this share of the run, median"], rows)
     text += "\n\n" + table(["predicted/actual", *words], [["runs", *counts]])
     if silent:
         text += "\n\nSaid nothing (too short for a pilot, or gone on with): " + ", ".join(
