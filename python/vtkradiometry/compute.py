@@ -8,6 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .faults import InputFault, Listener
 from .plots import rows_of
+from .scales import format_number
 
 METHODS = {"auto": 0, "dense": 1, "hierarchical": 2, "montecarlo": 3}
 SAMPLES = {"cells": 0, "points": 1}
@@ -52,6 +53,10 @@ def field_facts(data):
             continue
         if isinstance(array, vtkStringArray):
             values = [array.GetValue(k) for k in range(array.GetNumberOfValues())]
+        elif array.HasAComponentName():
+            values = [", ".join(f"{array.GetComponentName(k)} {format_number(array.GetComponent(0, k))}"
+                                for k in range(array.GetNumberOfComponents())
+                                if array.GetComponent(0, k) >= 0.0)]
         elif hasattr(array, "GetDataType"):
             values = vtk_to_numpy(array).reshape(-1).tolist()
         else:
@@ -104,7 +109,7 @@ def run(algorithm, name, scene, options, progress):
     with Listener() as listener:
         listener.observe(algorithm)
         listener.observe(algorithm.GetExecutive())
-        with progress.stage(name), progress.filter(algorithm):
+        with progress.stage(name), progress.filter(algorithm, foretold=True):
             begin = time.monotonic()
             algorithm.Update()
             seconds = time.monotonic() - begin

@@ -77,8 +77,9 @@ class Progress:
         self.check()
 
     @contextlib.contextmanager
-    def filter(self, algorithm):
-        """Shows the progress of `algorithm` while it runs, and stops it when asked to."""
+    def filter(self, algorithm, foretold=False):
+        """Shows the progress of `algorithm` while it runs, and stops it when asked to; with
+        `foretold` also what it says that it will take, as soon as it does."""
 
         def report(caller, _event):
             if self.stop is not None:
@@ -97,7 +98,7 @@ class Progress:
             self.note(f"{self._stage}: {foretell(caller)}")
 
         tags = [algorithm.AddObserver("ProgressEvent", report)]
-        if hasattr(algorithm, "PredictedEvent"):
+        if foretold:
             tags.append(algorithm.AddObserver(algorithm.PredictedEvent, predicted))
         try:
             yield

@@ -65,7 +65,7 @@ double Median(std::vector<double>& numbers)
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());
   return numbers.size() % 2 == 1 ? *middle
-                                 : 0.5 * (*middle + *std::max_element(numbers.begin(), middle));
+                                 : 0.5 * *middle + 0.5 * *std::max_element(numbers.begin(), middle);
 }
 
 void CheckAlike(const StatedValues& values, const StatedValues& reference)
