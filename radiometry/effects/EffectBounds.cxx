@@ -255,8 +255,11 @@ double EffectBounds::Of(Effect effect, const EffectPlan& plan, bool indirect, do
       plan, this->First(plan).Kinds[IndexOf(type)], Only(type), indirect);
   };
   const auto specular = [&](double value, double peak, double reflectance) {
-    const double carried = Times(reflectance, this->Ambient + this->AllSent(plan));
-    return value + this->Spread(peak, Infinite) + Times(rest, carried);
+    const double through = Rest(o.Pane);
+    const double carried =
+      Times(through, Times(reflectance, this->Ambient + this->AllSent(plan)));
+    const double again = Times(o.Scattered, through);
+    return value + carried + Times(Times(again, Rest(again)), peak + carried);
   };
   switch (effect)
   {

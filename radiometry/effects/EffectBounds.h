@@ -37,7 +37,10 @@ namespace radiometry
 ///   GlobalAmbient                       A + Y(A)
 ///   Emission                            E + Y(E)
 ///   Interreflection                     Y(P + A + X + E); after n reflections R^n times that
-///   SpecularTransport                   X + Y(X) + (A + B) rho_s/(1 - R); Mirrors: of mirrors
+///   SpecularTransport                   X + G + d (X + G)/(1 - d), G = rho_s (A + B): what arrives
+///     that a mirror or lobe sent on, and what diffuse reflection makes of that where surfaces send no
+///     more by mirrors: the difference of both solutions. With panes G/(1 - t), d/(1 - t). Mirrors: of
+///     mirrors
 ///   Transmission                        t (V + X) + Y(t (P + X)) + (t B + tau_d (P + A + X + B))/(1 - R)
 ///   BackFaces                           what backs get: V + A + X + B
 ///   Occlusion                           what was computed without it: it is less with it

@@ -30,6 +30,11 @@ double Times(double factor, double value)
   return factor > 0.0 ? factor * value : 0.0;
 }
 
+double Rest(double share)
+{
+  return share < 1.0 ? 1.0 / (1.0 - share) : Infinite;
+}
+
 struct Facet
 {
   std::size_t Triangle = 0;
@@ -205,6 +210,14 @@ std::vector<Group> MirrorGroups(const Scene& scene, const Group& mirrors, double
   return groups;
 }
 
+/// True where what one facet sends meets no other: all lie in one plane, or on one convex body.
+bool NoneSeesAnother(const Scene& scene, const Facets& facets, double extent)
+{
+  Group all = facets.Mirrors;
+  all.insert(all.end(), facets.Glossy.begin(), facets.Glossy.end());
+  return IsConvexBody(scene, all) || ByPlane(scene, all, extent, 1).size() <= 1;
+}
+
 /// The factor of rho I/h^2 that a plane with lobes of these exponents gives at most.
 double PlaneOfLobes(double least, double most)
 {
@@ -348,7 +361,7 @@ SpecularReach BoundSpecular(const Scene& scene, const OpticalLimits& optics, boo
   }
   const double panels =
     kinds[static_cast<std::size_t>(LightType::Area)] ? PanelRadiance(scene, extent) : 0.0;
-  const double stays = optics.Carried < 1.0 ? 1.0 / (1.0 - optics.Carried) : Infinite;
+  const double stays = Rest(optics.Carried);
   const double perArea =
     cellsOnly && optics.SmallestCell > 0.0 ? stays / optics.SmallestCell : Infinite;
 
@@ -401,14 +414,20 @@ SpecularReach BoundSpecular(const Scene& scene, const OpticalLimits& optics, boo
   const double mirrorValue = std::min({ mirrorPeak, Times(points.MirroredFlux, perArea),
     points.Mirrored + Times(optics.Mirror * points.MirroredFlux, perArea) });
   // ... and over lobes: met first, or after mirrors; then radiance goes on.
+  const bool alone = NoneSeesAnother(scene, facets, extent); // no second meeting, but with panes
+  const double again = alone ? optics.Pane : optics.Carried;
   const double first = std::min(points.Lobe, points.Planes);
-  const double further = Times(points.Lobe, optics.Carried * stays);
-  const double after = Times(sharpest * mirrorPeak, stays);
+  double further = Times(points.Lobe, Times(again, Rest(again)));
+  if (facets.Mirrors.empty() && !(optics.Pane > 0.0))
+  {
+    further = std::min(further, Times(first, Times(sharpest, Rest(sharpest))));
+  }
+  const double after = alone ? 0.0 : Times(sharpest * mirrorPeak, stays);
   const double flux = Times(points.MirroredFlux + points.GlossyFlux, perArea);
   const double lobes = first + further + after;
   out.Peak += mirrorPeak + lobes;
   out.Value += std::min(mirrorValue + lobes, flux);
-  const double mixed = after + Times(points.Lobe, optics.Mirror * stays * stays);
+  const double mixed = alone ? 0.0 : after + Times(points.Lobe, optics.Mirror * stays * stays);
   out.MirrorPeak += optics.Mirror > 0.0 ? mirrorPeak + mixed : 0.0;
   out.MirrorValue += optics.Mirror > 0.0 ? std::min(mirrorValue + mixed, flux) : 0.0;
   return out;

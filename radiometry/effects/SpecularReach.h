@@ -31,7 +31,9 @@ namespace radiometry
 ///   D sin(psi); cos^n(alpha)/r^2 is then at most 2 q/((n + 2) D^2 sin^2(psi)) and 1/h^2, and the
 ///   smaller of both, integrated over the hemisphere, is greatest at D = h.
 /// After a lobe light is radiance: further specular reflection adds s/(1 - s), s the greatest share
-///   that stays radiance. The same for panels and skies, of radiance L: s/(1 - s) pi L.
+///   that stays radiance; and no more than the series of rho (n + 2)/2, as each lobe sends so much of
+///   the irradiance that the one before gives. Nothing where all such surfaces lie in one plane or on
+///   one convex body. The same for panels and skies, of radiance L: s/(1 - s) pi L.
 /// Averages over cells also get no more than all that surfaces reflect specularly of the lights, over
 ///   the smallest cell: Phi/(1 - s)/A.
 struct SpecularReach

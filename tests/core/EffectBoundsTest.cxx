@@ -1,277 +1,258 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What leaving an effect out of a picture changes at most: closed forms, and samples of the model.
-#include "radiometry/shading/EffectBounds.h"
+#include "radiometry/effects/EffectBounds.h"
+
+#include "radiometry/effects/SceneEffects.h"
+#include "radiometry/geometry/SolidAngle.h"
+#include "radiometry/scene/SkyRadiance.h"
+#include "tests/core/TestScenes.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <random>
 
 using namespace radiometry;
 
 namespace
 {
 
-constexpr double Pi = 3.14159265358979323846;
-constexpr double Infinity = std::numeric_limits<double>::infinity();
+const double Pi = std::acos(-1.0);
 
-/// A square of 2 x 2 at the origin that faces +z, of reflectance 1 and without highlights.
-BoundedSurface Floor()
+Light Lamp(const Scene& scene, const Vec3& position, double intensity = 1.0)
 {
-  BoundedSurface surface;
-  surface.Boxes = { { { -1.0, -1.0, 0.0 }, { 1.0, 1.0, 0.0 } } };
-  surface.Peaks.Diffuse = { 1.0, 1.0, 1.0 };
-  return surface;
-}
-
-DisplayLight PointAt(const Vec3& p, double intensity)
-{
-  DisplayLight light;
-  light.Position = { { p.x, p.y, p.z, 1.0 } };
-  light.Attenuation = { { 0.0, 0.0, 1.0 } };
-  light.Diffuse = light.Specular = intensity * Rgb{ 1.0, 1.0, 1.0 };
+  Light light;
+  light.Position = position - scene.Origin;
+  light.Intensity = { intensity };
   return light;
 }
 
-DisplayLight SpotAt(const Vec3& p, double degrees, double exponent)
+void MakeSpecular(Scene& scene, std::size_t from, double reflectance, double shininess)
 {
-  DisplayLight light = PointAt(p, 1.0);
-  light.SpotDirection = { 0.0, 0.0, -1.0 };
-  light.CosCutoff = std::cos(degrees * Pi / 180.0);
-  light.SpotExponent = exponent;
-  return light;
+  scene.Optics.SpecularReflectance[0].resize(scene.Cells, 0.0);
+  scene.Optics.Shininess[0].resize(scene.Cells, MirrorShininess);
+  for (std::size_t c = from; c < scene.Cells; ++c)
+  {
+    scene.Optics.SpecularReflectance[0][c] = reflectance;
+    scene.Optics.Shininess[0][c] = shininess;
+  }
 }
 
-double Change(const Rgb& a, const Rgb& b)
+constexpr std::array<bool, 5> All{ true, true, true, true, true };
+
+SpecularReach Over(const Scene& scene, bool cells = true)
 {
-  return std::max({ std::fabs(a.r - b.r), std::fabs(a.g - b.g), std::fabs(a.b - b.b) });
+  return BoundSpecular(scene, FindOpticalLimits(scene), cells, All, {});
+}
+
+TEST(EffectBounds, PointLightIsExactOnCellsAndUnderTheLamp)
+{
+  test::Mesh mesh;
+  mesh.AddGrid({ -1, -1, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, 1, 1);
+  Scene scene = mesh.ToScene();
+  scene.Lights = { Lamp(scene, { 0.3, -0.2, 0.5 }, 7.0) };
+  const LightBounds found = BoundLights(scene, {}, true, false);
+  double average = 0.0, flux = 0.0;
+  for (std::size_t t = 0; t < 2; ++t)
+  {
+    const Triangle3 c = scene.TriangleAt(t);
+    const Vec3& p = scene.Lights[0].Position;
+    const double omega = std::fabs(SolidAngle(c[0] - p, c[1] - p, c[2] - p));
+    average = std::max(average, 7.0 * omega / Area(c));
+    flux += 7.0 * omega;
+  }
+  EXPECT_NEAR(found.All.Value, average, 1e-8 * average);
+  EXPECT_NEAR(found.All.Peak, 7.0 / 0.25, 1e-7);
+  EXPECT_NEAR(found.All.Flux, flux, 1e-8 * flux);
+  EXPECT_EQ(found.Kinds[0].Value, found.All.Value);
+  EXPECT_EQ(found.Backs.Value, 0.0);
+  scene.Lights[0].Position.z = -scene.Lights[0].Position.z; // behind a surface that has no back
+  EXPECT_EQ(BoundLights(scene, {}, true, false).All.Peak, 0.0);
+}
+
+TEST(EffectBounds, ASpotThatReachesNothingGivesNothingAndChangesAll)
+{
+  test::Mesh mesh;
+  mesh.AddGrid({ -1, -1, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, 4, 4);
+  Scene scene = mesh.ToScene();
+  Light spot = Lamp(scene, { 0, 0, 1 }, 3.0);
+  spot.Type = LightType::Spot;
+  spot.Direction = { 0, 0, 1 };
+  spot.CosCutoff = std::cos(0.5);
+  scene.Lights = { spot };
+  const LightBounds away = BoundLights(scene, {}, true, false);
+  EXPECT_EQ(away.All.Peak, 0.0);
+  EXPECT_NEAR(away.SpotShape.Peak, 3.0, 1e-7); // without its cone it shines on the middle
+  scene.Lights[0].Direction = { 0, 0, -1 };
+  scene.Lights[0].CosCutoff = std::cos(1.5); // wider than the square
+  const LightBounds onto = BoundLights(scene, {}, true, false);
+  EXPECT_NEAR(onto.All.Peak, 3.0, 1e-7);
+  EXPECT_EQ(onto.SpotShape.Peak, 0.0);
+}
+
+TEST(EffectBounds, ManyPairsTogetherAreNoLess)
+{
+  test::Mesh mesh;
+  mesh.AddGrid({ -1, -1, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, 40, 40);
+  Scene scene = mesh.ToScene();
+  Scene few = scene;
+  for (int k = 0; k < 120; ++k)
+  {
+    Light light = Lamp(scene, { std::cos(k), std::sin(2.0 * k), 0.3 + 0.02 * k }, 1.0 + 0.1 * k);
+    if (k % 3 == 0)
+    {
+      light.Attenuation[0] = 1.0;
+      light.Attenuation[2] = 0.3;
+    }
+    scene.Lights.push_back(light); // 384000 pairs
+  }
+  few.Lights.assign(scene.Lights.begin(), scene.Lights.begin() + 90); // 288000
+  const double one = BoundLights(few, {}, true, false).All.Value;
+  for (std::size_t k = 90; k < 120; ++k)
+  {
+    scene.Lights[k].Intensity = { 1e-12 };
+  }
+  const double together = BoundLights(scene, {}, true, false).All.Value;
+  EXPECT_GE(together, one);
+  EXPECT_LE(together, 2.0 * one);
+}
+
+TEST(EffectBounds, SkiesGiveNoMoreThanTheirBound)
+{
+  test::Mesh mesh;
+  mesh.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+  const Scene scene = mesh.ToScene();
+  EXPECT_NEAR(BoundSky(test::SkyLight(SkyRadiance::Uniform(), { 2.0 })).Irradiance, 2.0 * Pi, 1e-12);
+  EXPECT_GE(BoundSky(test::SkyLight(SkyRadiance::Overcast())).Irradiance, 7.0 * Pi / 9.0);
+  for (int type = 1; type <= SkyRadiance::Types; ++type)
+  {
+    const Vec3 sun{ 0.5, 0.3, 0.6 };
+    const auto sky = SkyRadiance::General(SkyRadiance::TypeCoefficients(type), sun);
+    const SkyBound bound = BoundSky(test::SkyLight(sky));
+    // A plane that faces the sun, and the sky itself, by brute force.
+    const Vec3 n = Normalized(sun);
+    double irradiance = 0.0, peak = 0.0;
+    constexpr int rows = 90, columns = 180;
+    for (int r = 0; r < rows; ++r)
+    {
+      for (int c = 0; c < columns; ++c)
+      {
+        const double z = 0.5 * Pi * (r + 0.5) / rows, a = 2.0 * Pi * (c + 0.5) / columns;
+        const Vec3 d{ std::sin(z) * std::sin(a), std::sin(z) * std::cos(a), std::cos(z) };
+        const double radiance = sky->At(d);
+        peak = std::max(peak, radiance);
+        irradiance += radiance * std::fmax(0.0, Dot(n, d)) * std::sin(z) * (0.5 * Pi / rows) *
+          (2.0 * Pi / columns);
+      }
+    }
+    EXPECT_GE(bound.Radiance, peak) << type;
+    EXPECT_LE(bound.Radiance, 2.5 * peak) << type;
+    EXPECT_GE(bound.Irradiance, irradiance) << type;
+    EXPECT_LE(bound.Irradiance, 3.5 * irradiance) << type;
+  }
+}
+
+TEST(EffectBounds, OneMirrorIsOneMoreLamp)
+{
+  // A mirror of many facets above a floor: the image is 2 m above the lamp, 1 m from the mirror.
+  test::Mesh mesh;
+  mesh.AddGrid({ -5, -5, 0 }, { 10, 0, 0 }, { 0, 10, 0 }, 4, 4);
+  const std::size_t floor = mesh.Triangles.size();
+  mesh.AddGrid({ -5, -5, 3 }, { 0, 10, 0 }, { 10, 0, 0 }, 8, 8);
+  Scene scene = mesh.ToScene(0.0);
+  MakeSpecular(scene, floor, 0.9, MirrorShininess);
+  scene.Lights = { Lamp(scene, { 0, 0, 2 }, 50.0) };
+  const SpecularReach one = Over(scene, false);
+  EXPECT_NEAR(one.Peak, 0.9 * 50.0 / 1.0, 1e-6);
+  EXPECT_GE(one.Peak, 0.9 * 50.0 / 16.0); // what the floor gets: 4 m from the image
+  EXPECT_EQ(one.MirrorPeak, one.Peak);
+  // A beam is as strong behind a mirror as before it.
+  scene.Lights[0].Type = LightType::Directional;
+  scene.Lights[0].Direction = { 0, 0, 1 };
+  EXPECT_NEAR(Over(scene, false).Peak, 0.9 * 50.0, 1e-6);
+}
+
+TEST(EffectBounds, AConvexMirrorOnlySpreadsAndAHollowOneMayGather)
+{
+  for (const int bands : { 6, 12, 18 })
+  {
+    test::Mesh mesh;
+    mesh.AddGrid({ -5, -5, -2 }, { 10, 0, 0 }, { 0, 10, 0 }, 2, 2);
+    const std::size_t floor = mesh.Triangles.size();
+    mesh.AddSphere({ 0, 0, 0 }, 1.0, bands, false);
+    Scene ball = mesh.ToScene(0.0);
+    MakeSpecular(ball, floor, 0.8, MirrorShininess);
+    ball.Lights = { Lamp(ball, { 0, 0, 3 }, 10.0) };
+    // However many facets there are: the nearest is at least 2 m away.
+    EXPECT_LE(Over(ball, false).Peak, 0.8 * 10.0 / 4.0 * (1.0 + 1e-6)) << bands;
+    EXPECT_GE(Over(ball, false).Peak, 0.8 * 10.0 / 9.0) << bands;
+
+    mesh.Triangles.resize(floor);
+    mesh.AddSphere({ 0, 0, 0 }, 1.0, bands, true);
+    Scene hollow = mesh.ToScene(0.0);
+    MakeSpecular(hollow, floor, 0.8, MirrorShininess);
+    hollow.Lights = { Lamp(hollow, { 0, 0, 0.1 }, 10.0) };
+    EXPECT_TRUE(std::isinf(Over(hollow, false).Peak)); // facets that see each other
+    EXPECT_TRUE(std::isfinite(Over(hollow, true).Value)); // all flux over the smallest cell
+  }
+}
+
+TEST(EffectBounds, LobesAreBoundedByTheirHeightAndByTheirPlane)
+{
+  // A glossy floor under a lamp, and a place that looks at it: the exact integral over the floor.
+  for (const double n : { 0.0, 1.0, 10.0, 100.0, 1e4 })
+  {
+    test::Mesh mesh;
+    mesh.AddGrid({ -50, -50, 0 }, { 100, 0, 0 }, { 0, 100, 0 }, 2, 2);
+    Scene scene = mesh.ToScene(0.0);
+    MakeSpecular(scene, 0, 0.5, n);
+    scene.Lights = { Lamp(scene, { 0, 0, 1 }, 1.0) };
+    const double bound = Over(scene, false).Peak;
+    for (const double height : { 0.01, 0.1, 1.0, 3.0 })
+    {
+      // A plane of normal -z at (0, 0, height): E = int f I cos_in/r^2 cos_out cos_x/u^2 dA.
+      double sum = 0.0;
+      constexpr int steps = 200000;
+      for (int k = 0; k < steps; ++k)
+      {
+        const double psi = 0.5 * Pi * (k + 0.5) / steps; // from straight down
+        const double radius = height * std::tan(psi);
+        const Vec3 a{ radius, 0.0, 0.0 };
+        const Vec3 in = Normalized(Vec3{ 0, 0, 1 } - a);
+        const Vec3 out = Normalized(Vec3{ 0, 0, height } - a);
+        const Vec3 mirrored{ -in.x, 0.0, in.z };
+        const double lobe = std::pow(std::fmax(0.0, Dot(mirrored, out)), n);
+        const double radiance =
+          0.5 * (n + 2.0) / (2.0 * Pi) * lobe * in.z / (1.0 + radius * radius);
+        sum += radiance * std::cos(psi) * 2.0 * Pi * std::sin(psi) * (0.5 * Pi / steps);
+      }
+      EXPECT_GE(bound, sum) << n << ' ' << height;
+    }
+    EXPECT_LE(bound, 0.5 * 0.5 * (n + 2.0) * (1.0 + 1e-6)); // rho (n + 2)/2 I/h^2
+    EXPECT_LE(bound, 0.5 * 6.0);                            // whatever the exponent
+  }
+}
+
+TEST(EffectBounds, BouncesThatMatterFollowTheReflectance)
+{
+  test::Mesh mesh;
+  mesh.AddBox({ 0, 0, 0 }, { 1, 1, 1 }, 2, true);
+  Scene scene = mesh.ToScene(0.5);
+  scene.GlobalAmbient = { 1.0 };
+  EffectAbilities all;
+  all.Interreflection = true;
+  const std::vector<EffectSwitch> autos(EffectCount, EffectSwitch::Auto);
+  SceneEffects effects(scene, autos, all);
+  EffectBounds& bounds = effects.Bounds();
+  const EffectPlan& plan = effects.Plan();
+  EXPECT_NEAR(bounds.Interreflection(plan), 1.0, 1e-12); // 0.5/(1 - 0.5): exact in a closed box
+  EXPECT_NEAR(bounds.Interreflection(plan, 3), 0.125, 1e-12);
+  EXPECT_EQ(bounds.BouncesFor(1.5, plan), 0);
+  EXPECT_EQ(bounds.BouncesFor(0.13, plan), 3);
+  EXPECT_EQ(bounds.BouncesFor(0.12, plan), 4);
+  EXPECT_EQ(bounds.BouncesFor(0.0, plan), -1);
+  scene.Optics.DiffuseReflectance[0].assign(scene.Cells, 1.0); // nothing is known of that
+  SceneEffects lossless(scene, autos, all);
+  EXPECT_TRUE(std::isinf(lossless.Bounds().Interreflection(lossless.Plan())));
+  EXPECT_EQ(lossless.Bounds().BouncesFor(1.0, lossless.Plan()), -1);
 }
 
 } // namespace
-
-TEST(EffectBounds, PointLightGivesItsInverseSquareUnderIt)
-{
-  const LightingModel physical;
-  EXPECT_DOUBLE_EQ(LightBound(physical, PointAt({ 0, 0, 2 }, 8.0), Floor()), 8.0 / 4.0 / Pi);
-  LightingModel legacy;
-  legacy.Reflection = ReflectionModel::Phong;
-  EXPECT_DOUBLE_EQ(LightBound(legacy, PointAt({ 0, 0, 2 }, 8.0), Floor()), 2.0);
-  EXPECT_EQ(LightBound(physical, PointAt({ 0.5, 0.5, 0.0 }, 1.0), Floor()), Infinity); // on it
-  DisplayLight off = PointAt({ 0, 0, 2 }, 8.0);
-  off.Enabled = false;
-  EXPECT_EQ(LightBound(physical, off, Floor()), 0.0);
-}
-
-TEST(EffectBounds, BeamIsExact)
-{
-  DisplayLight beam;
-  beam.Diffuse = { 3.0, 1.0, 0.5 };
-  EXPECT_DOUBLE_EQ(LightBound({}, beam, Floor()), 3.0 / Pi);
-  beam.Diffuse = { -3.0, 1.0, 0.5 };
-  EXPECT_DOUBLE_EQ(LightBound({}, beam, Floor()), 3.0 / Pi); // negative light is light
-}
-
-TEST(EffectBounds, HighlightsGiveTheirPeak)
-{
-  BoundedSurface surface = Floor();
-  surface.Peaks.Specular = { 0.5, 0.25, 0.0 };
-  surface.Peaks.LeastShininess = surface.Peaks.GreatestShininess = 1e6;
-  DisplayLight beam;
-  EXPECT_DOUBLE_EQ(LightBound({}, beam, surface, { 0, 0, 1 }), 0.5 * (1e6 + 2.0) / 2.0 / Pi);
-  LightingModel legacy;
-  legacy.Reflection = ReflectionModel::BlinnPhong;
-  EXPECT_DOUBLE_EQ(LightBound(legacy, beam, surface, { 0, 0, 1 }), 0.5);
-  beam.Specular = {};
-  EXPECT_EQ(LightBound({}, beam, surface, { 0, 0, 1 }), 0.0);
-}
-
-TEST(EffectBounds, SpotShapeIsWhatTheConeTakes)
-{
-  // Corners at 3: atan(sqrt(2)/3) = 25.2 degrees off the axis, of the ball about the box 28.1.
-  const LightingModel model;
-  EXPECT_EQ(SpotShapeBound(model, SpotAt({ 0, 0, 3 }, 40, 0), Floor()), 0.0);
-  EXPECT_DOUBLE_EQ(SpotShapeBound(model, SpotAt({ 0, 0, 3 }, 10, 0), Floor()), 1.0 / 9.0 / Pi);
-  const double most = SpotShapeBound(model, SpotAt({ 0, 0, 3 }, 40, 5), Floor());
-  const double corner = (1.0 - std::pow(3.0 / std::sqrt(11.0), 5.0)) / 11.0 / Pi;
-  EXPECT_GT(most, corner);
-  EXPECT_LT(most, 2.0 * corner);
-  // A spot that looks elsewhere gives nothing.
-  DisplayLight away = SpotAt({ 0, 0, 3 }, 40, 0);
-  away.SpotDirection = { 1.0, 0.0, 0.3 };
-  EXPECT_EQ(LightBound(model, away, Floor()), 0.0);
-  EXPECT_DOUBLE_EQ(SpotShapeBound(model, away, Floor()), 1.0 / 9.0 / Pi);
-}
-
-TEST(EffectBounds, AreaLightAndSky)
-{
-  const LightingModel model;
-  DisplayLight panel;
-  panel.Diffuse = { 5.0, 5.0, 5.0 };
-  panel.Polygon = { { -0.5, -0.5, 10 }, { -0.5, 0.5, 10 }, { 0.5, 0.5, 10 }, { 0.5, -0.5, 10 } };
-  EXPECT_NEAR(LightBound(model, panel, Floor()), 5.0 / Pi / (Pi * 100.0), 1e-15);
-  for (Vec3& p : panel.Polygon)
-  {
-    p.z = 1e-9;
-  }
-  EXPECT_DOUBLE_EQ(LightBound(model, panel, Floor()), 5.0 / Pi); // a form factor ends at 1
-  DisplayLight sky;
-  auto uniform = std::make_shared<SkyQuadric>();
-  uniform->Constant = { Pi, Pi, Pi };
-  sky.Sky = uniform;
-  sky.Diffuse = { 2.0, 2.0, 2.0 };
-  EXPECT_DOUBLE_EQ(LightBound(model, sky, Floor()), 2.0);
-}
-
-TEST(EffectBounds, AttenuationIsTheGreaterOfTwoFallOffs)
-{
-  DisplayLight light = PointAt({ 0, 0, 2 }, 1.0);
-  light.Attenuation = { { 1.0, 0.0, 0.0 } };
-  EXPECT_DOUBLE_EQ(AttenuationBound({}, light, Floor(), 1.0), 1.0 / Pi);
-  EXPECT_DOUBLE_EQ(AttenuationBound({}, light, Floor(), 0.01), 25.0 / Pi);
-}
-
-TEST(EffectBounds, LobeChangeIsClosed)
-{
-  EXPECT_EQ(LobeChange(0.0, 1.0), 0.0);
-  EXPECT_DOUBLE_EQ(LobeChange(1.0, 0.01), 0.01);
-  EXPECT_DOUBLE_EQ(LobeChange(2.0, 0.01), 0.01); // (cos^2)' = -sin 2a
-  EXPECT_DOUBLE_EQ(LobeChange(0.5, 0.04), 0.2);
-  EXPECT_EQ(LobeChange(1e6, 0.1), 1.0);
-  EXPECT_EQ(LobeChange(Infinity, 0.1), 0.0);
-  const auto lobe = [](double a, double n) { return std::pow(std::max(std::cos(a), 0.0), n); };
-  for (const double n : { 0.1, 0.5, 0.9, 1.0, 1.3, 1.7, 2.0, 5.0, 40.0, 1e4 })
-  {
-    for (const double turn : { 1e-4, 1e-3, 1e-2, 0.1, 0.7, 3.0 })
-    {
-      double most = 0.0;
-      for (double a = 0.0; a < 2.0; a += 1e-4)
-      {
-        most = std::max(most, std::fabs(lobe(a, n) - lobe(a + turn, n)));
-      }
-      EXPECT_LE(most, LobeChange(n, turn) * (1.0 + 1e-12)) << n << ' ' << turn;
-      if (n >= 2.0 && turn * std::sqrt(n) < 0.1)
-      {
-        EXPECT_GE(most, 0.95 * LobeChange(n, turn)) << n << ' ' << turn;
-      }
-    }
-  }
-}
-
-TEST(EffectBounds, FarViewerIsAsGoodAsOneAtInfinity)
-{
-  BoundedSurface surface = Floor();
-  surface.Peaks.Specular = { 1.0, 1.0, 1.0 };
-  surface.Peaks.LeastShininess = surface.Peaks.GreatestShininess = 2.0;
-  LightingModel legacy;
-  legacy.Reflection = ReflectionModel::Phong;
-  DisplayLight beam;
-  const auto at = [&](double d) {
-    return ViewerBound(legacy, beam, surface, { 0, 0, d }, { 0, 0, 1 });
-  };
-  EXPECT_NEAR(at(1e6), std::sqrt(2.0) / 1e6, 1e-12); // the angle of the corner
-  EXPECT_DOUBLE_EQ(at(0.5), 1.0);
-  legacy.Reflection = ReflectionModel::BlinnPhong;
-  EXPECT_NEAR(at(1e6), std::sqrt(2.0) / 2e6, 1e-11); // H turns by half
-  surface.Peaks.LeastShininess = surface.Peaks.GreatestShininess = 0.0;
-  EXPECT_EQ(at(0.5), 0.0); // a lobe without a shape
-  surface.Peaks.GreatestShininess = 5.0;
-  EXPECT_DOUBLE_EQ(at(2.0), 1.0);
-}
-
-TEST(EffectBounds, NothingIsNeverNoNumber)
-{
-  BoundedSurface black = Floor();
-  black.Peaks.Diffuse = {};
-  const DisplayLight on = PointAt({ 0, 0, 0 }, 1.0); // an infinite fall-off, of nothing
-  EXPECT_EQ(LightBound({}, on, black), 0.0);
-  EXPECT_EQ(AttenuationBound({}, on, black, 1.0), 0.0);
-  EXPECT_EQ(SpotShapeBound({}, SpotAt({ 0, 0, 0 }, 10, 1), black), 0.0);
-  EXPECT_EQ(ViewerBound({}, on, black, {}, { 0, 0, 1 }), 0.0);
-  const BoundedSurface none;
-  EXPECT_EQ(LightBound({}, on, none), 0.0);
-  DisplayLight nowhere = PointAt({ 0, 0, 2 }, 1.0);
-  nowhere.SpotDirection = {};
-  nowhere.CosCutoff = 0.5;
-  EXPECT_FALSE(std::isnan(SpotShapeBound({}, nowhere, Floor())));
-}
-
-TEST(EffectBounds, RandomSamplesStayWithin)
-{
-  std::mt19937 engine(7);
-  const auto in = [&engine](double a, double b) {
-    return a + (b - a) * (static_cast<double>(engine()) / 4294967296.0);
-  };
-  const auto vector = [&](double a, double b) { return Vec3{ in(a, b), in(a, b), in(a, b) }; };
-  double least = Infinity;
-  for (int k = 0; k < 3000; ++k)
-  {
-    LightingModel model;
-    model.Reflection = static_cast<ReflectionModel>(engine() % 3);
-    BoundedSurface surface;
-    const Vec3 low = vector(-1.0, 0.0);
-    surface.Boxes = { { low, low + vector(0.0, 0.5) } };
-    const double n = in(0.0, 1.0) < 0.2 ? in(0.0, 2.0) : in(0.0, 200.0);
-    surface.Peaks.Specular = { 1.0, 1.0, 1.0 };
-    surface.Peaks.Diffuse = { in(0, 1), in(0, 1), in(0, 1) };
-    surface.Peaks.LeastShininess = surface.Peaks.GreatestShininess = n;
-    DisplayLight light = PointAt(vector(-3.0, 3.0), 1.0);
-    const double legacy = in(0.0, 1.0);
-    if (legacy < 0.5)
-    {
-      light.Attenuation = { { in(0, 1), in(0, 1), in(0, 1) } };
-    }
-    light.SpotDirection = vector(-1.0, 1.0);
-    if (in(0.0, 1.0) < 0.6)
-    {
-      light.CosCutoff = in(0.0, 1.0);
-      light.SpotExponent = in(0.0, 1.0) < 0.5 ? 0.0 : in(0.0, 30.0);
-      light.SmoothEdge = in(0.0, 1.0) < 0.5;
-      light.CosInnerCutoff = in(light.CosCutoff, 1.0);
-    }
-    DisplayLight point = light;
-    point.CosCutoff = -1.0;
-    DisplayLight square = light;
-    square.Attenuation = { { 0.0, 0.0, 1.0 } };
-    const Vec3 eye = vector(-20.0, 20.0);
-    const Vec3 viewer = Normalized(eye + vector(-1.0, 1.0));
-    DisplayMaterial material;
-    material.Diffuse = surface.Peaks.Diffuse;
-    material.Specular = surface.Peaks.Specular;
-    material.Shininess = n;
-    const double all = LightBound(model, light, surface);
-    const double shape = SpotShapeBound(model, light, surface);
-    const double fall = AttenuationBound(model, light, surface, 1.0);
-    const double view = ViewerBound(model, light, surface, eye, viewer);
-    for (int s = 0; s < 20; ++s)
-    {
-      ShadingSample sample;
-      const SurfaceBox& box = surface.Boxes[0];
-      sample.Point = { in(box.Low.x, box.High.x), in(box.Low.y, box.High.y),
-        in(box.Low.z, box.High.z) };
-      sample.Normal = vector(-1.0, 1.0);
-      sample.Eye = eye;
-      sample.Viewer = viewer;
-      const auto shade = [&](const DisplayLight& l, bool local) {
-        LightingModel m = model;
-        m.LocalViewer = local;
-        return Shade(m, { l }, material, material, sample).Color;
-      };
-      const Rgb lit = shade(light, true);
-      const auto within = [&](double change, double bound, const char* what) {
-        EXPECT_LE(change, bound * (1.0 + 1e-9) + 1e-12) << what << ' ' << k;
-        if (change > 0.0)
-        {
-          least = std::min(least, bound / change);
-        }
-      };
-      within(Change(lit, {}), all, "light");
-      within(Change(lit, shade(point, true)), shape, "shape");
-      within(Change(lit, shade(square, true)), fall, "fall-off");
-      within(Change(lit, shade(light, false)), view, "viewer");
-    }
-  }
-  EXPECT_LT(least, 2.0); // and comes close
-}
