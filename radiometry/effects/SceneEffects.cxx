@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 namespace radiometry
@@ -328,6 +329,42 @@ void SceneEffects::DropSmall(const EffectAbilities& abilities)
   {
     this->Drop(Effect::Occlusion, allowed);
   }
+}
+
+void SceneEffects::Spent(const std::array<double, 3>& kinds, double others)
+{
+  EffectPlan& plan = this->Decided;
+  const Scene& scene = this->Simulated();
+  std::array<double, 5> lights{};
+  for (const Light& light : scene.Lights)
+  {
+    lights[static_cast<std::size_t>(light.Type)] += light.Enabled ? 1.0 : 0.0;
+  }
+  double emitters = 0.0;
+  const auto bands = static_cast<std::size_t>(scene.Optics.Bands);
+  for (const std::vector<double>& emitted : scene.Optics.EmittedExitance)
+  {
+    for (std::size_t k = 0; k < emitted.size() && plan.Simulates(Effect::Emission); k += bands)
+    {
+      emitters += emitted[k] > 0.0 ? 1.0 : 0.0;
+    }
+  }
+  const auto share = [&](double seconds, std::initializer_list<std::pair<Effect, double>> among) {
+    double all = 0.0;
+    for (const auto& [effect, count] : among)
+    {
+      all += count;
+    }
+    for (const auto& [effect, count] : among)
+    {
+      plan[effect].Seconds += count > 0.0 ? seconds * count / all : 0.0;
+    }
+  };
+  share(kinds[0], { { Effect::PointLights, lights[0] }, { Effect::SpotLights, lights[1] },
+    { Effect::DirectionalLights, lights[2] } });
+  share(kinds[1], { { Effect::AreaLights, lights[3] }, { Effect::Emission, emitters } });
+  share(kinds[2], { { Effect::Environment, lights[4] } });
+  plan[Effect::Occlusion].Seconds += plan.Simulates(Effect::Occlusion) ? std::max(0.0, others) : 0.0;
 }
 
 void SceneEffects::Bound(double computed)

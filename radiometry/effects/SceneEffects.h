@@ -7,6 +7,7 @@
 #include "radiometry/scene/Patch.h"
 #include "radiometry/scene/Scene.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -85,6 +86,11 @@ public:
   /// Gives each effect that the scene has and the run left out its bound (EffectBounds.h).
   /// `computed`: the greatest irradiance with its error that the run came to, W/m^2.
   void Bound(double computed);
+
+  /// Seconds that beams (point, spot and directional lights), areas (panels and emitters) and skies
+  /// took, shadows included, go to their effects: among those of a kind by their number. `others`:
+  /// the rest of direct light, which goes to Occlusion.
+  void Spent(const std::array<double, 3>& kinds, double others);
 
   /// Auto leaves a present effect out where its bound, with those dropped before, is within `allowed`
   /// [W/m^2]: for what is only known when the run has begun. The flags of the run are the caller's.

@@ -34,6 +34,7 @@ struct DirectOptions
   bool DropAreas = true;
   bool DropSky = true;
   double Dropped = 0.0; // W/m^2: the bound on what was left out before, of every value
+  std::array<double, 3>* KindSeconds = nullptr; // gets what beams, areas and skies took, if not null
   int Threads = 0;          // 0: all
   const Communicator* Ranks = nullptr; // that share the receivers; null: this process alone
   /// Numbers of the receivers, which key their samples, where they are some of more (a rank's share,

@@ -131,6 +131,29 @@ private:
   std::vector<std::uint8_t> Taken;
 };
 
+/// Adds the seconds of its life to those of a kind.
+class KindClock
+{
+public:
+  KindClock(const DirectOptions& options, std::size_t kind)
+    : Seconds(options.KindSeconds ? &(*options.KindSeconds)[kind] : nullptr)
+  {
+  }
+  ~KindClock()
+  {
+    if (this->Seconds)
+    {
+      *this->Seconds += this->Clock.Elapsed();
+    }
+  }
+  KindClock(const KindClock&) = delete;
+  KindClock& operator=(const KindClock&) = delete;
+
+private:
+  double* Seconds;
+  const ConvergenceRecord Clock;
+};
+
 template <typename Vector>
 std::size_t BytesOf(const Vector& v)
 {
@@ -233,6 +256,7 @@ void DirectRun<Receiver>::MakeKinds(const StageProgress& stage)
     {
       continue; // all of it is there
     }
+    const KindClock spent(this->Options, static_cast<std::size_t>(k));
     // What is built of it may take half of what is left.
     const double left = this->Options.SecondsLeft > 0.0
       ? std::max(1e-9, 0.5 * (this->Options.SecondsLeft - this->Clock.Elapsed()))
@@ -300,6 +324,7 @@ std::vector<std::uint32_t> DirectRun<Receiver>::Candidates(std::size_t kind) con
 template <typename Receiver>
 void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, double most)
 {
+  const KindClock spent(this->Options, kind);
   DirectKind& work = *this->Kinds[kind];
   const std::vector<std::uint32_t> all = work.Waiting();
   const std::vector<std::uint32_t> items =
@@ -403,6 +428,7 @@ void DirectRun<Receiver>::Finish(
     {
       continue;
     }
+    const KindClock spent(this->Options, k);
     StageProgress part = stage;
     part.Begin = stage.Begin + (stage.End - stage.Begin) * done / total;
     done += weights[k];

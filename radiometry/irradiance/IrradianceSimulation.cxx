@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -211,7 +212,9 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
   IrradianceCache none;
   IrradianceCache& store = cache ? *cache : none;
   const OcclusionScene& occluders = store.Occluders(scene);
-  const DirectOptions direct = DirectOf(options, plan);
+  DirectOptions direct = DirectOf(options, plan);
+  std::array<double, 3> kinds{}; // seconds
+  direct.KindSeconds = &kinds;
   const int sides = plan.Simulates(Effect::BackFaces) ? 2 : 1;
   ContentKey key;
   if (cache)
@@ -263,7 +266,8 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
   }
 
   EffectDecision& occlusion = plan[Effect::Occlusion];
-  occlusion.Seconds = result.Convergence.Elapsed();
+  effects.Spent(kinds,
+    result.Convergence.Elapsed() - std::accumulate(kinds.begin(), kinds.end(), 0.0));
   if (occlusion.Simulated)
   {
     const std::size_t values = (options.Cells ? scene.Cells : 0) + points.size();
