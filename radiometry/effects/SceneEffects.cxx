@@ -161,7 +161,8 @@ SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& 
   }
   const bool transport = plan.Simulates(Effect::SpecularTransport);
   plan.Decide(Effect::Mirrors, perfect, transport || !plan[Effect::SpecularTransport].Present,
-    "every surface that reflects specularly has a lobe",
+    specular > 0.0 ? "every surface that reflects specularly has a lobe"
+                   : "no surface reflects specularly",
     transport ? "surfaces reflect specularly without a lobe" : "left out with SpecularTransport");
   plan[Effect::Mirrors].Present = perfect && plan[Effect::SpecularTransport].Present;
   this->DecideBands();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -132,6 +133,36 @@ void TellBounces(
   }
 }
 
+/// Seconds of the stages, by the effects that they are for; of direct light by its kinds.
+void TellSeconds(
+  const RadiosityResult& result, const std::array<double, 3>& kinds, SceneEffects& effects)
+{
+  double direct = 0.0;
+  for (const auto& [stage, seconds] : result.Seconds)
+  {
+    if (stage == "direct light")
+    {
+      direct += seconds;
+      continue;
+    }
+    const Effect effect = stage == "light over mirrors" ? Effect::SpecularTransport
+      : stage == "refinement"                           ? Effect::Discretisation
+                                                        : Effect::Interreflection;
+    effects.Plan()[effect].Seconds += seconds;
+  }
+  effects.Spent(kinds, direct - std::accumulate(kinds.begin(), kinds.end(), 0.0));
+}
+
+/// How far the elements went.
+void TellElements(const RadiosityResult& result, const Scene& scene, EffectDecision& decision)
+{
+  if (decision.Simulated)
+  {
+    decision.Why += "; " + std::to_string(result.Elements) + " elements of " +
+      std::to_string(scene.ReceiverTriangles) + " triangles";
+  }
+}
+
 /// No light is negative: what the correction of a coarse exchange pushed below zero is 0, and its
 /// error says by how much. A value or an error without a number is never handed out.
 void Complete(FieldValues& field, const char* where)
@@ -195,6 +226,9 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   options.SpecularTransport = plan.Simulates(Effect::SpecularTransport);
   options.PathTransmission = abilities.Paths && effects.PassesPanes();
 
+  std::array<double, 3> kinds{}; // seconds of direct light
+  options.KindSeconds = &kinds;
+
   PlannedRadiosity out;
   RadiosityCache own;
   RadiosityCache& kept = cache ? *cache : own;
@@ -250,10 +284,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
     const double left = budget > 0.0 ? std::max(1e-9, budget - clock.Elapsed()) : 0.0;
     FindVisibility(scene, occluders, points, cells, options, left, monitor, out);
   }
-  for (const auto& [stage, seconds] : out.Cells.Seconds)
-  {
-    plan[stage == "direct light" ? Effect::Occlusion : Effect::Interreflection].Seconds += seconds;
-  }
+  TellSeconds(out.Cells, kinds, effects);
+  TellElements(out.Cells, scene, plan[Effect::Discretisation]);
   for (int side = 0; side < 2; ++side)
   {
     for (FieldValues* values : { &out.Cells.Irradiance[side], &out.Cells.Radiosity[side],

@@ -134,6 +134,7 @@ DirectOptions RadiosityContext::Direct(double secondsLeft) const
   o.Attenuation = this->Options.Attenuation;
   o.Environment = this->Options.Environment;
   o.Transmission = this->Options.Transmission;
+  o.KindSeconds = this->Options.KindSeconds;
   o.Threads = this->Options.Threads;
   o.Ranks = this->Options.Ranks;
   return o;

@@ -66,6 +66,7 @@ struct RadiosityOptions
   double SecondsBefore = 0.0;  // that the caller spent: they count in what is predicted
   double SecondsForPoints = 0.0; // beside TimeBudget, for IrradianceAt
   std::size_t PointsAfter = 0; // at which values will be wanted when the run has ended: the same
+  std::array<double, 3>* KindSeconds = nullptr; // gets what direct light took by kind, if not null
   int Threads = 0;             // 0: all
   std::uint64_t Seed = 0;
   const Communicator* Ranks = nullptr; // that compute together; null: this process alone
