@@ -68,18 +68,18 @@ class Radiance:
                         / (np.pi * np.sin(0.5 * np.radians(WIDTH))**2))
                 text.append("lamp{0} source at{0} 0 0 4 {1:.12g} {2:.12g} {3:.12g} {4}\n".format(
                     number, *-lamp.direction, WIDTH))
-        optics = np.concatenate([scene.reflectance, scene.exitance], 1)
-        for cell, corners in enumerate(scene.corners):
-            if cell == 0 or (optics[cell] != optics[cell - 1]).any():
-                if scene.exitance[cell].max() > 0.0:
-                    text.append("void light kind{} 0 0 3 {:.9g} {:.9g} {:.9g}\n".format(
-                        cell, *three(scene.exitance[cell] / np.pi)))
-                else:
-                    text.append("void plastic kind{} 0 0 5 {:.9g} {:.9g} {:.9g} 0 0\n".format(
-                        cell, *three(scene.reflectance[cell])))
+        for number, (corners, exitance) in enumerate(scene.uncut):
+            shining(f"s{number}", "light", exitance / np.pi)
+            polygon(f"lamps{number}", f"surface{number}", corners)
+        kind = None
+        for cell, corners in enumerate(scene.corners if scene.indirect else ()):
+            if scene.exitance[cell].any():
+                continue
+            if kind is None or (scene.reflectance[cell] != scene.reflectance[kind]).any():
                 kind = cell
-            if scene.indirect:
-                polygon(f"kind{kind}", f"c{cell}", corners)
+                text.append("void plastic kind{} 0 0 5 {:.9g} {:.9g} {:.9g} 0 0\n".format(
+                    kind, *three(scene.reflectance[kind])))
+            polygon(f"kind{kind}", f"c{cell}", corners)
         text.append("void plastic grey 0 0 5 0 0 0 0 0\n")
         points, triangles = joined(scene.blockers)
         for number, triangle in enumerate(triangles):
@@ -119,16 +119,16 @@ class Radiance:
         kinds = {lamp.kind for lamp in scene.lamps}
         if self.way == "ambient cache":
             for each, aa, ad, ar, ds, ab in (
-                    (1, 0.6, 16, 8, 0.6, 3), (1, 0.4, 64, 16, 0.4, 3), (1, 0.3, 128, 32, 0.3, 4),
-                    (1, 0.2, 256, 64, 0.2, 5), (2, 0.2, 512, 64, 0.2, 5), (4, 0.15, 512, 128, 0.1, 6),
-                    (4, 0.15, 1024, 128, 0.1, 6), (8, 0.1, 1024, 128, 0.1, 6),
-                    (16, 0.1, 2048, 256, 0.05, 8), (32, 0.08, 4096, 256, 0.05, 8)):
+                    (1, 0.6, 16, 8, 0.6, 3), (4, 0.5, 32, 16, 0.4, 3), (9, 0.4, 64, 16, 0.3, 4),
+                    (16, 0.3, 128, 32, 0.2, 4), (25, 0.25, 256, 64, 0.15, 5), (36, 0.2, 512, 64, 0.1, 5),
+                    (64, 0.15, 512, 128, 0.1, 6), (100, 0.15, 1024, 128, 0.08, 6),
+                    (144, 0.1, 2048, 256, 0.05, 8)):
                 yield (f"{each} points a cell, -ab {ab} -aa {aa} -ad {ad}", each,
                        ["-dj", 0.9 if PANEL in kinds or scene.exitance.any() else 0, "-ab", ab, "-aa", aa,
                         "-ad", ad, "-as", ad // 2, "-ar", ar, "-ds", ds, *full])
         elif self.way == "no cache":
-            for each, ad, ab in ((1, 4, 4), (1, 16, 5), (4, 16, 5), (16, 16, 6), (16, 64, 6),
-                                 (64, 32, 7), (64, 128, 7), (256, 64, 8), (1024, 64, 8)):
+            for each, ad, ab in ((1, 4, 4), (4, 4, 4), (16, 4, 5), (36, 4, 5), (64, 4, 6), (144, 4, 6),
+                                 (256, 4, 7), (576, 4, 7), (1024, 4, 8), (2304, 4, 8)):
                 yield (f"{each} points a cell, -ab {ab} -aa 0 -ad {ad}", each,
                        ["-dj", 0.9 if PANEL in kinds or scene.exitance.any() else 0, "-ab", ab, "-aa", 0,
                         "-ad", ad, "-as", 0, "-ds", 0.2, *full])

@@ -42,6 +42,8 @@ class Scene:
     two_sided: np.ndarray = None
     lamps: list = field(default_factory=list)
     blockers: list = field(default_factory=list)  # Convex
+    uncut: list = field(default_factory=list)     # what emits before it was cut: (corners, exitance), for
+                                                  # programs in which each polygon is a lamp by itself
     indirect: bool = False                        # reflections too: vtkRadiosityFilter
     open: bool = False                            # nothing hides anything, nothing sees another
 
@@ -105,6 +107,7 @@ def from_file(key, name, path, edge=None, kinds=(POINT, SUN)):
     optics = np.concatenate([vtk_to_numpy(get("DiffuseReflectance")),
                              vtk_to_numpy(get("EmittedExitance")),
                              vtk_to_numpy(get("TwoSided"))[:, None]], 1)
+    shining = [(c, o[3:6]) for c, o in zip(corners, optics) if o[3:6].any()]
     if edge:
         parts = [divided(triangle, edge) for triangle in corners]
         corners = np.concatenate(parts)
@@ -118,7 +121,7 @@ def from_file(key, name, path, edge=None, kinds=(POINT, SUN)):
             lamps.append(Lamp(int(value["LightType"]), np.array(value["Intensity"]),
                               np.array(lights.GetPoint(i)), toward))
     return Scene(key, name, 3, corners, reflectance=optics[:, :3], exitance=optics[:, 3:6],
-                 two_sided=optics[:, 6] != 0, lamps=lamps, indirect=True)
+                 two_sided=optics[:, 6] != 0, lamps=lamps, uncut=shining, indirect=True)
 
 
 def street():
