@@ -102,7 +102,7 @@ void vtkRadiosityFilter::Simulate(Job& job, Result& result)
     AddQuantities(
       side, computed.PointIrradiance[side], computed.PointRadiosity[side], result.Points);
   }
-  const radiometry::RadiosityErrorBudget& budget = computed.Cells.Budget;
+  const radiometry::RadiosityErrorBudget& budget = computed.Cells.Parts;
   result.ErrorParts = { { "Error: direct light", budget.Direct },
     { "Error: form factors", budget.FormFactors }, { "Error: visibility", budget.Visibility },
     { "Error: discretisation", budget.Discretisation }, { "Error: solver", budget.Solver } };

@@ -117,6 +117,7 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
   }
 
   result.Budget = {};
+  result.Parts = {};
   double totalArea = 0.0, totalValue = 0.0, totalError = 0.0, meanValue = 0.0;
   for (const Sums& s : sums)
   {
@@ -186,6 +187,12 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
             static_cast<float>((formFactor + solver) * share) };
         }
         worstExcess = std::max(worstExcess, bandExcess);
+        const double part = a / (totalArea * static_cast<double>(nb));
+        result.Parts.Direct += part * direct;
+        result.Parts.FormFactors += part * formFactor;
+        result.Parts.Visibility += part * visibility;
+        result.Parts.Discretisation += part * discretisation;
+        result.Parts.Solver += part * solver;
         worst.Direct = std::max(worst.Direct, direct);
         worst.FormFactors = std::max(worst.FormFactors, formFactor);
         worst.Visibility = std::max(worst.Visibility, visibility);
@@ -239,8 +246,8 @@ bool EvaluateRadiosity(const RadiosityContext& context, const RadiosityLevel& le
   const double perValue = totalArea * static_cast<double>(nb);
   result.Convergence.Add(stage, totalValue > 0.0 ? totalError / totalValue : 0.0,
     perValue > 0.0 ? totalError / perValue : 0.0, result.Samples,
-    { result.Budget.Direct, result.Budget.FormFactors, result.Budget.Visibility,
-      result.Budget.Discretisation, result.Budget.Solver });
+    { result.Parts.Direct, result.Parts.FormFactors, result.Parts.Visibility,
+      result.Parts.Discretisation, result.Parts.Solver });
   if (!excesses.empty())
   {
     const auto at = excesses.begin() + static_cast<std::ptrdiff_t>(0.95 * (excesses.size() - 1));

@@ -78,7 +78,7 @@ struct RadiosityOptions
   bool FollowsPaths() const { return this->SpecularTransport || this->PathTransmission; }
 };
 
-/// Area-weighted mean over the cells of each part of IrradianceError, brightest band, W/m^2.
+/// Area-weighted mean over the cells of each part of IrradianceError, W/m^2.
 struct RadiosityErrorBudget
 {
   double Direct = 0.0;         // direct light, and what its error adds by reflection
@@ -93,7 +93,8 @@ struct RadiosityResult
   /// Front, back (where any cell is two-sided and BackFaces); cells x bands, W/m^2.
   std::array<FieldValues, 2> Irradiance;
   std::array<FieldValues, 2> Radiosity;
-  RadiosityErrorBudget Budget;
+  RadiosityErrorBudget Budget; // of the brightest band of each cell
+  RadiosityErrorBudget Parts;  // in the mean over the bands: of the Convergence's AbsoluteError
   RadiosityMethod Method = RadiosityMethod::Auto; // used
   std::string MethodWhy;                          // why, with the operator's own description
   std::string Outcome;                            // what ended the run
