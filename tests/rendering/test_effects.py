@@ -53,13 +53,15 @@ def random_lights(rng, family):
 
 
 FAMILIES = [
-    {"lights": (2,), "model": 2, "off": ("Specular", "LocalViewer", "DirectionalLights")},
-    {"lights": (0, 2), "model": 0, "off": ("LocalViewer", "PointLights", "TwoSided")},
-    {"lights": (0,), "model": 1, "legacy": True, "ambient": True,
+    {"lights": (2,), "model": 2, "shading": 2, "back": True, "off": ("Specular", "LocalViewer", "DirectionalLights")},
+    {"lights": (0, 2), "model": 0, "shading": 1, "off": ("LocalViewer", "PointLights", "TwoSided")},
+    {"lights": (0,), "model": 1, "shading": 2, "legacy": True, "ambient": True,
      "off": ("Attenuation", "GlobalAmbient", "Emission")},
-    {"lights": (1,), "model": 2, "off": ("SpotShape", "SpotLights", "LocalViewer")},
-    {"lights": (0, 1), "model": 0, "ambient": True, "off": ("SpotShape", "Specular", "GlobalAmbient")},
-    {"lights": (1, 2), "model": 1, "parallel": True, "off": ("TwoSided", "SpotShape", "Specular")},
+    {"lights": (1,), "model": 2, "shading": 2, "back": True, "off": ("SpotShape", "SpotLights", "LocalViewer")},
+    {"lights": (0, 1), "model": 0, "shading": 1, "ambient": True,
+     "off": ("SpotShape", "Specular", "GlobalAmbient")},
+    {"lights": (1, 2), "model": 1, "shading": 1, "back": True, "parallel": True,
+     "off": ("TwoSided", "SpotShape", "Specular")},
 ]
 
 
@@ -68,7 +70,7 @@ def scene(w, rng, family):
     mapper.SetInputDataObject(sheet(rng))
     mapper.SetLightData(random_lights(rng, family))
     mapper.SetReflectionModel(family["model"])
-    mapper.SetShading(int(rng.integers(1, 3)))
+    mapper.SetShading(family["shading"])
     mapper.SetLightScale(rng.uniform(0.3, 2))
     mapper.SetMetersPerUnit(rng.uniform(0.5, 2))
     p.SetDiffuseColor(*rng.random(3))
@@ -81,7 +83,7 @@ def scene(w, rng, family):
     glow = "Emission" in family["off"]
     mapper.SetEmission(*(rng.random(3) * 10.0 ** rng.uniform(-4, 0) if glow else (0, 0, 0)))
     back = None
-    if rng.random() < 0.3:
+    if family.get("back"):
         back = vtkProperty()
         back.SetDiffuseColor(*rng.random(3))
         back.SetSpecular(p.GetSpecular())
