@@ -130,8 +130,6 @@ public:
   double GetGouraudShare();
   const char* GetShadingReason();
   /// Effect by effect, why the last frame carried it or not, and what leaving it out changes.
-  /// ExplainEffects does nothing: ParaView's panel reads all of these anew after it.
-  void ExplainEffects() {}
   const char* GetEffectsExplained();
   const char* GetFieldUsed() { return this->FieldUsed.c_str(); }
   ///@}
