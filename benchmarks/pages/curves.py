@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Error against time beside others, in words: benchmarks/results/accuracy-curves.json."""
+import numpy as np
+
 from pages.words import listed, number, percent, share, table, times
 
 OURS = "vtkRadiometry"
@@ -95,8 +97,12 @@ def not_the_best(data):
     ahead, lost, count, won, nobody, blind = [], [], 0, 0, 0, 0
     for row in judged_rows(data):
         blind += sum(not at["judged"] for at in row["programs"][0]["at"])
+    everything = 0  # first with all counted
     for row, mine, best in comparisons(data):
         count += 1
+        others = [at["allSeconds"] for p in row["programs"][1:] for at in p["at"]
+                  if at["error"] == mine["error"] and at["allSeconds"] is not None]
+        everything += mine["allSeconds"] is not None and mine["allSeconds"] <= min(others, default=np.inf)
         if mine["seconds"] is None and best is None:
             nobody += 1
         elif mine["seconds"] is None:
@@ -106,7 +112,8 @@ def not_the_best(data):
         else:
             ahead.append((row, mine, best))
     lines = [f"Of {count} pairs of scene and error that can be judged ({blind} are below what a reference "
-             f"tells), vtkRadiometry is the first in {won}; in {nobody} nobody got there."]
+             f"tells), vtkRadiometry is the first in {won}, and with loading and compiling counted for all in "
+             f"{everything}; in {nobody} nobody got there."]
     if ahead:
         lines.append("Another program is ahead of it:\n")
         for row, mine, (program, at) in sorted(ahead, key=lambda e: e[2][1]["factor"]):
