@@ -149,6 +149,7 @@ int main(int argc, char** argv)
 
   const BareLoop bare(scene, light.Position);
   const OcclusionScene occluders(scene);
+  occluders.Prepare();
   const std::vector<Patch> patches = MakePatches(scene, 0);
   const auto built = std::chrono::steady_clock::now();
   occluders.Lines(scene, 0);

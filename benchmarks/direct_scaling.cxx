@@ -85,6 +85,7 @@ json Measure(const std::function<test::Mesh()>& make, std::size_t cells,
   {
     double start = Now();
     const OcclusionScene occluders(scene);
+    occluders.Prepare();
     building = std::min(building, Now() - start);
     start = Now();
     result = ComputeDirectIrradiance(scene, occluders, patches, options);

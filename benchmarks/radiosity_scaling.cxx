@@ -67,6 +67,7 @@ json Measure(char kind, std::size_t wanted, int threads)
 
   const double begin = Now();
   const OcclusionScene occluders(scene);
+  occluders.Prepare();
   const ElementSet elements(scene, true);
   const double occlusion = Now();
   const auto F = Build(kind, scene, occluders, elements, options);
