@@ -93,21 +93,37 @@ const LightBounds& EffectBounds::First(const EffectPlan& plan)
   return *this->Light;
 }
 
-SpecularReach EffectBounds::Specular(const EffectPlan& plan, const std::array<bool, 5>& kinds)
+const FirstReflection& EffectBounds::ReflectedOnce(const EffectPlan& plan)
+{
+  if (!this->Once)
+  {
+    this->Once = std::make_unique<FirstReflection>(BoundFirstReflection(
+      this->Whole, this->Points, this->Cells, this->First(plan), this->Optics.Diffused > 0.0));
+  }
+  return *this->Once;
+}
+
+SpecularReach EffectBounds::Specular(const EffectPlan& plan, const std::array<bool, 5>& kinds,
+  const FirstReflection* straight)
 {
   if (!plan[Effect::SpecularTransport].Present)
   {
     return {};
   }
-  return BoundSpecular(
-    this->Whole, this->Optics, this->Cells && this->Points.empty(), kinds, VariantsOf(plan));
+  const bool cellsOnly = this->Cells && this->Points.empty();
+  const LightVariants variants = VariantsOf(plan);
+  return straight
+    ? BoundSpecular(this->Whole, this->Optics, cellsOnly, kinds, variants, *straight)
+    : BoundSpecular(this->Whole, this->Optics, cellsOnly, kinds, variants);
 }
 
 const SpecularReach& EffectBounds::AllSpecular(const EffectPlan& plan)
 {
   if (!this->Mirrored)
   {
-    this->Mirrored = std::make_unique<SpecularReach>(this->Specular(plan, AllKinds));
+    const bool specular = plan[Effect::SpecularTransport].Present;
+    this->Mirrored = std::make_unique<SpecularReach>(
+      this->Specular(plan, AllKinds, specular ? &this->ReflectedOnce(plan) : nullptr));
   }
   return *this->Mirrored;
 }
@@ -130,13 +146,35 @@ double EffectBounds::Emitted() const
     : all;
 }
 
+double EffectBounds::SpreadLights(const EffectPlan& plan, int bounces)
+{
+  const OpticalLimits& o = this->Optics;
+  const LightBounds& first = this->First(plan);
+  const double plain = Times(
+    bounces > 0 ? std::pow(o.Total, bounces) : 1.0, this->Spread(first.All.Peak, first.All.Flux));
+  if (!(plain > 0.0) || first.Spots.empty())
+  {
+    return plain;
+  }
+  const FirstReflection& once = this->ReflectedOnce(plan);
+  const double d = o.Scattered;
+  double carried = Times(Times(o.Carried, Rest(o.Carried)), d * first.All.Peak);
+  if (!(o.Pane > 0.0))
+  {
+    carried = std::min(carried, Times(Times(o.Lobe, Rest(o.Lobe)), d * once.Peak));
+  }
+  const double further = this->Spread(d * once.Peak + carried, Infinite);
+  return std::min(plain,
+    bounces > 0 ? Times(std::pow(o.Total, bounces - 1), further)
+                : d * once.Value + carried + further);
+}
+
 double EffectBounds::Interreflection(const EffectPlan& plan, int bounces)
 {
-  const LightReach& all = this->First(plan).All;
   const double emitted = Times(this->Optics.Emitted, Rest(this->Optics.Carried));
   const double steady = this->Ambient + this->AllSpecular(plan).Peak + emitted;
-  const double sum = this->Spread(all.Peak, all.Flux) + this->Spread(steady, Infinite);
-  return bounces > 0 ? Times(std::pow(this->Optics.Total, bounces), sum) : sum;
+  return this->SpreadLights(plan, bounces) +
+    Times(bounces > 0 ? std::pow(this->Optics.Total, bounces) : 1.0, this->Spread(steady, Infinite));
 }
 
 int EffectBounds::BouncesFor(double allowed, const EffectPlan& plan, int most)
@@ -151,8 +189,12 @@ int EffectBounds::BouncesFor(double allowed, const EffectPlan& plan, int most)
   {
     return -1;
   }
-  const double count = std::ceil(std::log(allowed / all) / std::log(share));
-  return count <= most ? static_cast<int>(count) : -1;
+  int count = 1;
+  while (count <= most && this->Interreflection(plan, count) > allowed)
+  {
+    ++count;
+  }
+  return count <= most ? count : -1;
 }
 
 double EffectBounds::AllSent(const EffectPlan& plan)

@@ -29,6 +29,9 @@ namespace radiometry
 /// it was, and all that follows on it 1/(1 - R). Hence
 ///   Y(P) = d P/(1 - R)   all that surfaces make by diffuse reflection of first light P at any place;
 ///          of averages over cells also d Phi/((1 - R) A_min): flux only gets less
+///          where a lamp is near a surface P is great on a small spot only: all lights together also
+///          make no more than E1 + C + Y(E1 + C), E1 = d times BoundFirstReflection straight on, C what
+///          mirrors and lobes make of it: s d P/(1 - s), or the series of rho (n + 2)/2 times E1
 ///   E    = M/(1 - s)     of emitters, with what stays radiance of it
 ///   B    = E + Y(P + A + X + E)     all light that left a surface
 /// and of each effect
@@ -76,7 +79,8 @@ public:
 
 private:
   const LightBounds& First(const EffectPlan& plan);
-  SpecularReach Specular(const EffectPlan& plan, const std::array<bool, 5>& kinds);
+  SpecularReach Specular(
+    const EffectPlan& plan, const std::array<bool, 5>& kinds, const FirstReflection* straight = nullptr);
   const SpecularReach& AllSpecular(const EffectPlan& plan);
   /// Y of light that gives `peak` at any place and `flux` in all.
   double Spread(double peak, double flux) const;
@@ -91,6 +95,14 @@ private:
   bool Cells;
   OpticalLimits Optics;
   double Ambient = 0.0;
+  /// Of the lights' first light: all that surfaces make of it by diffuse reflection more than `bounces`
+  /// times.
+  double SpreadLights(const EffectPlan& plan, int bounces);
+
+  /// Of all lights.
+  const FirstReflection& ReflectedOnce(const EffectPlan& plan);
+
+  std::unique_ptr<FirstReflection> Once;
   std::unique_ptr<LightBounds> Light;
   std::unique_ptr<SpecularReach> Mirrored;
 };

@@ -279,8 +279,18 @@ void Widen(LightReach& to, double value, double peak, double flux)
   to.Flux += flux;
 }
 
-/// Puts the sums of a receiver into the bounds.
-void Count(const Receiver& r, const Sums& sums, LightBounds& out)
+/// What one side of a receiver gets.
+struct Place
+{
+  std::uint32_t Receiver = 0;
+  int Side = 0;
+  double Peak = 0.0;
+  double Flux = 0.0;
+};
+
+/// Puts the sums of a receiver into the bounds, and its sides into `places`.
+void Count(const Receiver& r, std::uint32_t number, const Sums& sums, LightBounds& out,
+  std::vector<Place>& places)
 {
   for (int side = 0; side < 2; ++side)
   {
@@ -298,6 +308,10 @@ void Count(const Receiver& r, const Sums& sums, LightBounds& out)
         sums.Average[side][k] * r.Area);
     }
     Widen(out.All, wanted * average, peak, average * r.Area);
+    if (r.Area > 0.0 && peak > 0.0)
+    {
+      places.push_back({ number, side, peak, average * r.Area });
+    }
     if (side == 1)
     {
       Widen(out.Backs, wanted * average, peak, average * r.Area);
@@ -395,6 +409,42 @@ std::vector<Source> MakeSources(const Scene& scene)
   return sources;
 }
 
+/// The brightest sides of triangles, as many as cost little to ask every receiver about.
+void FindSpots(const std::vector<Receiver>& receivers,
+  const std::vector<std::vector<Place>>& places, LightBounds& out)
+{
+  std::vector<Place> all;
+  for (const std::vector<Place>& part : places)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  const std::size_t most = std::clamp<std::size_t>(
+    static_cast<std::size_t>(1e6 / static_cast<double>(receivers.size() + 1)), 4, 64);
+  const std::size_t count = std::min(most, all.size());
+  const auto brighter = [](const Place& a, const Place& b) {
+    return a.Peak != b.Peak
+      ? a.Peak > b.Peak
+      : (a.Receiver != b.Receiver ? a.Receiver < b.Receiver : a.Side < b.Side);
+  };
+  std::partial_sort(
+    all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(), brighter);
+  constexpr double rounding = 1.0 + 1e-9;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    BrightSpot spot{ receivers[all[k].Receiver].Corners, rounding * all[k].Peak,
+      rounding * all[k].Flux };
+    if (all[k].Side == 1)
+    {
+      std::swap(spot.Corners[1], spot.Corners[2]);
+    }
+    out.Spots.push_back(spot);
+  }
+  for (std::size_t k = count; k < all.size(); ++k)
+  {
+    out.PeakBeyond = std::max(out.PeakBeyond, rounding * all[k].Peak);
+  }
+}
+
 /// A sphere about the receivers [begin, end).
 Receiver Together(const std::vector<Receiver>& all, std::size_t begin, std::size_t end)
 {
@@ -461,6 +511,39 @@ bool AddFar(const Source& source, const Receiver& sphere, const LightVariants& v
 
 } // namespace
 
+FirstReflection BoundFirstReflection(const Scene& scene, const std::vector<SurfacePoint>& points,
+  bool cells, const LightBounds& bounds, bool diffused)
+{
+  FirstReflection out;
+  const auto bound = [&](const Receiver& r) {
+    double any = bounds.PeakBeyond, average = bounds.PeakBeyond;
+    for (const BrightSpot& spot : bounds.Spots)
+    {
+      const Receiver s = MakeReceiver(spot.Corners);
+      const double before = r.Area > 0.0
+        ? std::max({ Dot(s.Normal, r.Corners[0] - s.Corners[0]),
+            Dot(s.Normal, r.Corners[1] - s.Corners[0]), Dot(s.Normal, r.Corners[2] - s.Corners[0]) })
+        : Dot(s.Normal, r.Center - s.Corners[0]);
+      if (!diffused && before <= 0.0)
+      {
+        continue;
+      }
+      const double gap = Length(s.Center - r.Center) - s.Radius - r.Radius;
+      const double here =
+        gap > 0.0 ? std::min(spot.Peak, spot.Flux / (Pi * gap * gap)) : spot.Peak;
+      any += here;
+      average += r.Area > 0.0 ? std::min(here, spot.Flux / r.Area) : here;
+    }
+    out.Value = std::max(out.Value, r.Wanted ? average : 0.0);
+    out.Peak = std::max(out.Peak, any);
+  };
+  for (const Receiver& r : MakeReceivers(scene, points, cells, true))
+  {
+    bound(r);
+  }
+  return out;
+}
+
 double Brightest(const Light& light)
 {
   return light.Intensity.empty()
@@ -514,6 +597,7 @@ LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& poi
     static_cast<double>(receivers.size()) * static_cast<double>(sources.size()) > ManyPairs;
   const std::size_t chunks = (receivers.size() + ChunkSize - 1) / ChunkSize;
   std::vector<LightBounds> parts(chunks);
+  std::vector<std::vector<Place>> places(chunks);
   ParallelFor(
     sources.empty() ? 0 : chunks, 0, {},
     [&](std::size_t c) {
@@ -536,7 +620,7 @@ LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& poi
         {
           AddSource(sources[s], receivers[k], variants, sums);
         }
-        Count(receivers[k], sums, parts[c]);
+        Count(receivers[k], static_cast<std::uint32_t>(k), sums, parts[c], places[c]);
       }
     },
     1e-7 * static_cast<double>(sources.size() * (many ? 4 : ChunkSize)));
@@ -545,6 +629,7 @@ LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& poi
   {
     Join(out, part);
   }
+  FindSpots(receivers, places, out);
   double area = 0.0;
   bool front = false, back = false, wanted = false;
   for (const Receiver& r : receivers)
@@ -575,6 +660,7 @@ LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& poi
   {
     const LightReach reach{ wanted ? sky : 0.0, sky, sky * area };
     out.Kinds[static_cast<std::size_t>(LightType::Environment)] = reach;
+    out.PeakBeyond += reach.Peak;
     out.All = { out.All.Value + reach.Value, out.All.Peak + reach.Peak, out.All.Flux + reach.Flux };
     if (back)
     {

@@ -28,6 +28,13 @@ struct LightVariants
   bool CandelaWebs = false;
 };
 
+/// A triangle that gets more than most, beside skies.
+struct BrightSpot
+{
+  Triangle3 Corners; // counter-clockwise seen from the lit side
+  double Peak = 0.0; // any place of it gets, W/m^2
+  double Flux = 0.0; // W
+};
 /// Bounds on what the enabled lights of a scene give before anything is reflected.
 ///   Model, of a light of intensity I on a triangle or a point at the least distance d and the most
 ///   far away f, h before its plane:
@@ -51,12 +58,26 @@ struct LightBounds
   LightReach SpotShape;
   LightReach Attenuation;
   LightReach CandelaWebs;
+  std::vector<BrightSpot> Spots; // at most 64
+  double PeakBeyond = 0.0;  // as All.Peak, anywhere but on the spots
   double SkyRadiance = 0.0; // pi times the greatest of all skies together, W/m^2
 };
 
 /// `points` are wanted, and averages over `cells`. `backs`: both sides of points receive.
 LightBounds BoundLights(const Scene& scene, const std::vector<SurfacePoint>& points, bool cells,
   bool backs, const LightVariants& variants = {});
+
+/// What arrives at values that are wanted, and anywhere, when the first light of `bounds` was reflected
+/// diffusely once, all of it: beside what the rest of the surfaces sends, the spots, of which a place
+/// at the distance D gets no more than Flux/(pi D^2), nor than Peak, and an average over the area A no
+/// more than Flux/A; and none behind a spot, unless light is `diffused` through.
+struct FirstReflection
+{
+  double Value = 0.0;
+  double Peak = 0.0;
+};
+FirstReflection BoundFirstReflection(const Scene& scene, const std::vector<SurfacePoint>& points,
+  bool cells, const LightBounds& bounds, bool diffused);
 
 /// What the point, spot and directional lights of a scene give every wanted value at least, weakest
 /// band, where nothing stands between them and any receiver (fronts alone receive). Of point-like ones

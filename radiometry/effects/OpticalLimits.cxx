@@ -27,6 +27,7 @@ struct Side
   const double* Pane = nullptr;
   const double* Emitted = nullptr;
   bool Mirror = false;
+  double Shininess = 0.0;
 
   static double At(const double* values, std::size_t b) { return values ? values[b] : 0.0; }
 };
@@ -53,6 +54,11 @@ void Count(const Side& side, std::size_t bands, double area, OpticalLimits& out)
     Widen(out.Carried, v[2] + v[3]);
     Widen(out.Total, v[0] + v[1] + v[2] + v[3]);
     Widen(out.Mirror, side.Mirror ? v[2] : 0.0);
+    if (v[2] > 0.0)
+    {
+      Widen(out.Lobe, side.Mirror ? std::numeric_limits<double>::infinity()
+                                  : 0.5 * v[2] * (side.Shininess + 2.0));
+    }
     Widen(brightest, v[4]);
   }
   Widen(out.Emitted, brightest);
@@ -103,6 +109,8 @@ OpticalLimits FindOpticalLimits(const Scene& scene)
         s.Specular = of(OfSide(optics.SpecularReflectance, side), cell);
         s.Emitted = of(optics.EmittedExitance[side], cell);
         s.Mirror = IsMirror(optics, side, cell);
+        const std::vector<double>& shininess = OfSide(optics.Shininess, side);
+        s.Shininess = shininess.empty() ? DefaultShininess : shininess[cell];
       }
       Count(s, bands, areas[cell], out);
     }

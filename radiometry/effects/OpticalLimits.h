@@ -18,6 +18,7 @@ struct OpticalLimits
   double Carried = 0.0;     // Specular and Pane together: what stays radiance
   double Total = 0.0;       // all together: what one meeting with a surface leaves
   double Mirror = 0.0;      // specular reflectance without a lobe
+  double Lobe = 0.0;        // rho (n + 2)/2 of those with a lobe; infinite for mirrors
   double Emitted = 0.0;     // exitance, W/m^2
   double EmittedFlux = 0.0; // W
   double SmallestCell = 0.0; // area of the smallest cell that has one, m^2

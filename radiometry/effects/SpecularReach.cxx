@@ -331,7 +331,7 @@ double PanelRadiance(const Scene& scene, double extent)
 } // namespace
 
 SpecularReach BoundSpecular(const Scene& scene, const OpticalLimits& optics, bool cellsOnly,
-  const std::array<bool, 5>& kinds, const LightVariants& variants)
+  const std::array<bool, 5>& kinds, const LightVariants& variants, const FirstReflection& straight)
 {
   SpecularReach out;
   if (!(optics.Specular > 0.0))
@@ -416,7 +416,9 @@ SpecularReach BoundSpecular(const Scene& scene, const OpticalLimits& optics, boo
   // ... and over lobes: met first, or after mirrors; then radiance goes on.
   const bool alone = NoneSeesAnother(scene, facets, extent); // no second meeting, but with panes
   const double again = alone ? optics.Pane : optics.Carried;
-  const double first = std::min(points.Lobe, points.Planes);
+  const double first =
+    std::min({ points.Lobe, points.Planes, Times(sharpest, straight.Peak) });
+  const double wanted = std::min(first, Times(sharpest, straight.Value));
   double further = Times(points.Lobe, Times(again, Rest(again)));
   if (facets.Mirrors.empty() && !(optics.Pane > 0.0))
   {
@@ -424,9 +426,8 @@ SpecularReach BoundSpecular(const Scene& scene, const OpticalLimits& optics, boo
   }
   const double after = alone ? 0.0 : Times(sharpest * mirrorPeak, stays);
   const double flux = Times(points.MirroredFlux + points.GlossyFlux, perArea);
-  const double lobes = first + further + after;
-  out.Peak += mirrorPeak + lobes;
-  out.Value += std::min(mirrorValue + lobes, flux);
+  out.Peak += mirrorPeak + first + further + after;
+  out.Value += std::min(mirrorValue + wanted + further + after, flux);
   const double mixed = alone ? 0.0 : after + Times(points.Lobe, optics.Mirror * stays * stays);
   out.MirrorPeak += optics.Mirror > 0.0 ? mirrorPeak + mixed : 0.0;
   out.MirrorValue += optics.Mirror > 0.0 ? std::min(mirrorValue + mixed, flux) : 0.0;

@@ -6,6 +6,7 @@
 #include "radiometry/scene/Scene.h"
 
 #include <array>
+#include <limits>
 
 namespace radiometry
 {
@@ -46,9 +47,12 @@ struct SpecularReach
   double MirrorPeak = 0.0;
 };
 
-/// Of the lights of some kinds (by LightType). Cost: facets x lights, some 50 ns each, at most 1e7 of
+/// Of the lights of some kinds (by LightType). `straight`: what BoundFirstReflection says of these
+/// lights, if it is known: a first lobe sends rho (n + 2)/2 of that. Cost: facets x lights, some 50 ns each, at most 1e7 of
 /// them; more are bounded together.
 SpecularReach BoundSpecular(const Scene& scene, const OpticalLimits& optics, bool cellsOnly,
-  const std::array<bool, 5>& kinds, const LightVariants& variants);
+  const std::array<bool, 5>& kinds, const LightVariants& variants,
+  const FirstReflection& straight = { std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity() });
 
 } // namespace radiometry
