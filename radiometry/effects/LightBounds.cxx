@@ -445,6 +445,13 @@ void FindSpots(const std::vector<Receiver>& receivers,
   }
 }
 
+/// The greatest height of corners above a plane.
+double Highest(const Triangle3& corners, const Vec3& normal, const Vec3& on)
+{
+  return std::max({ Dot(normal, corners[0] - on), Dot(normal, corners[1] - on),
+    Dot(normal, corners[2] - on) });
+}
+
 /// A sphere about the receivers [begin, end).
 Receiver Together(const std::vector<Receiver>& all, std::size_t begin, std::size_t end)
 {
@@ -515,16 +522,23 @@ FirstReflection BoundFirstReflection(const Scene& scene, const std::vector<Surfa
   bool cells, const LightBounds& bounds, bool diffused)
 {
   FirstReflection out;
+  double extent = 0.0;
+  for (const Vec3& p : scene.Points)
+  {
+    extent = std::max({ extent, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
+  }
+  const double rounding = 1e-12 * extent;
   const auto bound = [&](const Receiver& r) {
     double any = bounds.PeakBeyond, average = bounds.PeakBeyond;
     for (const BrightSpot& spot : bounds.Spots)
     {
       const Receiver s = MakeReceiver(spot.Corners);
-      const double before = r.Area > 0.0
-        ? std::max({ Dot(s.Normal, r.Corners[0] - s.Corners[0]),
-            Dot(s.Normal, r.Corners[1] - s.Corners[0]), Dot(s.Normal, r.Corners[2] - s.Corners[0]) })
-        : Dot(s.Normal, r.Center - s.Corners[0]);
-      if (!diffused && before <= 0.0)
+      // Nothing goes backward, along a plane, or onto a side that does not receive.
+      const bool behind = !diffused &&
+        Highest(r.Corners, s.Normal, s.Corners[0]) <= rounding;
+      const bool beneath = r.Area > 0.0 && !r.Back &&
+        Highest(s.Corners, r.Normal, r.Corners[0]) <= rounding;
+      if (behind || beneath)
       {
         continue;
       }
