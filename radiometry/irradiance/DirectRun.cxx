@@ -27,6 +27,8 @@ constexpr double FewDoubt = 0.3;
 constexpr double LeastSeconds = 0.02;
 /// Seconds that a value takes which is only bounded, on one thread.
 constexpr double BlindSeconds = 0.4e-6;
+/// Seconds a receiver that tree and clusters take.
+constexpr double GroupSeconds = 0.8e-6;
 /// Clusters are made in space for so many lights and more, were nothing in the way.
 constexpr std::size_t ManyLights = 32;
 
@@ -258,16 +260,19 @@ void DirectRun<Receiver>::MakeKinds(const StageProgress& stage)
     }
     const KindClock spent(this->Options, static_cast<std::size_t>(k));
     // What is built of it may take half of what is left.
-    const double left = this->Options.SecondsLeft > 0.0
-      ? std::max(1e-9, 0.5 * (this->Options.SecondsLeft - this->Clock.Elapsed()))
-      : 0.0;
     std::unique_ptr<DirectKind>& made = this->Kinds[static_cast<std::size_t>(k)];
+    if (k == 0 && !this->Share)
+    {
+      const ConvergenceRecord clock;
+      this->Groups = MakeGroups(this->Geometry, this->Occluders, mine, this->Options);
+      const double usual = GroupSeconds * static_cast<double>(mine.size()) + 1e-3;
+      this->Slowness = std::clamp(clock.Elapsed() / usual, 1.0, 20.0);
+    }
+    const double left = this->Options.SecondsLeft > 0.0
+      ? std::max(1e-9, 0.5 * (this->Options.SecondsLeft - this->Clock.Elapsed()) / this->Slowness)
+      : 0.0;
     if (k == 0)
     {
-      if (!this->Share)
-      {
-        this->Groups = MakeGroups(this->Geometry, this->Occluders, mine, this->Options);
-      }
       made = MakeBeams(this->Geometry, this->Occluders, mine, this->Groups, this->Options, fields,
         stage, left);
     }
@@ -419,7 +424,7 @@ void DirectRun<Receiver>::Finish(
     weights[k] = piloted ? std::max(this->Rest[k], 0.05 * known) : weights[k];
     total += this->Kinds[k] ? weights[k] : 0.0;
   }
-  const double reserve = BlindSeconds * static_cast<double>(this->Mine().size()) / this->Workers();
+  const double reserve = this->Slowness * BlindSeconds * static_cast<double>(this->Mine().size()) / this->Workers();
   const bool hurried = seconds > 0.0 && (!piloted || known > 0.8 * seconds);
   double done = 0.0;
   for (std::size_t k = 0; k < DirectKinds; ++k)

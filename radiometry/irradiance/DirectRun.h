@@ -36,6 +36,9 @@ public:
   DirectResult Result(ConvergenceRecord* record);
   /// Values that this process has to compute, or to make finer.
   std::size_t Waiting() const;
+  /// How much longer this machine takes now than the constants say by which time is planned; at
+  /// least 1.
+  double Slow() const { return this->Slowness; }
 
 private:
   const std::vector<Receiver>& Mine() const { return this->Share ? this->Own : this->All; }
@@ -63,6 +66,7 @@ private:
   std::array<std::unique_ptr<DirectKind>, DirectKinds> Kinds;
   std::array<double, DirectKinds> Rest{}; // seconds that each will take
   std::array<std::vector<DirectRound>, DirectKinds> Rounds;
+  double Slowness = 1.0;  // of this machine now, against what the seconds of building were found on
   double RaysSoFar = 0.0; // of kinds that have ended
   bool Recorded;
   std::int64_t RaysBefore = 0;

@@ -14,6 +14,8 @@ namespace
 constexpr double PilotBudget = 0.1;
 /// Seconds a receiver for putting its value where it belongs.
 constexpr double CollectSeconds = 150e-9;
+/// ... and for handing it on, when all is done.
+constexpr double OutputSeconds = 100e-9;
 /// Seconds a receiver and light for the share of a light, on one thread, beside what direct light
 /// takes.
 constexpr double ShareSeconds = 0.15e-6;
@@ -61,9 +63,17 @@ IrradianceCourse::~IrradianceCourse() = default;
 /// What is left of the budget; 0: there is none.
 double IrradianceCourse::Left() const
 {
-  return this->Options.TimeBudget > 0.0
-    ? std::max(1e-9, this->Options.TimeBudget - this->Result.Convergence.Elapsed())
-    : 0.0;
+  if (!(this->Options.TimeBudget > 0.0))
+  {
+    return 0.0;
+  }
+  double slow = 1.0;
+  slow = this->CellRun ? std::max(slow, this->CellRun->Slow()) : slow;
+  slow = this->PointRuns[0] ? std::max(slow, this->PointRuns[0]->Slow()) : slow;
+  const double output = slow * OutputSeconds *
+    static_cast<double>(this->Patches.size() + this->Sides * this->Points.size());
+  return std::max(
+    1e-9, this->Options.TimeBudget - output - this->Result.Convergence.Elapsed());
 }
 
 void IrradianceCourse::CutCells()
@@ -177,7 +187,8 @@ double IrradianceCourse::Budget(std::size_t part) const
     all += this->Rest[k];
   }
   const double share = all > 0.0 ? std::max(0.05, this->Rest[part] / all) : 1.0;
-  const double collect = CollectSeconds *
+  const double slow = this->CellRun ? this->CellRun->Slow() : 1.0;
+  const double collect = slow * CollectSeconds *
     static_cast<double>(this->Patches.size() + this->Sides * this->Points.size());
   return std::max(1e-9, share * (left - collect));
 }

@@ -139,7 +139,8 @@ std::int64_t PatchBlock::Ask(std::size_t light, const std::uint8_t* active, cons
 {
   const SourceFlux& source = *this->Lights.Sources[light];
   Pending now{ source, this->Lights.Outlines[light].get(), this->Lights.Cutters[light].get(), basis,
-    Magnitude(source.GetLight()) };
+    this->Lights.Tree.Strength(
+      static_cast<std::int32_t>(this->Lights.Tree.Nodes() + static_cast<std::int32_t>(light))) };
   this->Tint.assign(this->Count * this->Bands, 1.0);
   for (std::size_t i = 0; i < this->Count; ++i)
   {

@@ -157,7 +157,7 @@ TEST(DirectRefinement, AFinerToleranceGoesOnFromWhatThereIs)
   IrradianceCache cache;
   std::int64_t rays = 0;
   IrradianceResult last, fresh;
-  for (const double tolerance : { 0.1, 0.02, 0.005 })
+  for (const double tolerance : { 0.1, 0.03, 0.01 })
   {
     last = Simulate(scene, At(tolerance), &cache);
     fresh = Simulate(scene, At(tolerance));
@@ -215,7 +215,7 @@ TEST(DirectRefinement, ASequenceGivesTheSameBytesForAnyThreadsAndRanks)
 
 TEST(DirectRefinement, APilotIsAPartOfTheRun)
 {
-  const Scene scene = AllKinds(16);
+  const Scene scene = AllKinds(12);
   const IrradianceResult fresh = Simulate(scene, At(0.02));
   EXPECT_GT(fresh.Cost.PredictedSeconds, 0.0);
   EXPECT_LE(fresh.Cost.PredictedAt, fresh.Cost.Seconds);
@@ -266,12 +266,12 @@ TEST(DirectRefinement, MemoryLimitCountsWhatIsKept)
 
 TEST(DirectRefinement, ABudgetLeavesHonestValuesThatALaterRunMakesFine)
 {
-  const Scene scene = AllKinds(16);
-  const IrradianceResult fine = Simulate(scene, At(0.01));
-  for (const double budget : { 1e-6, 0.01, 0.05 })
+  const Scene scene = AllKinds(8);
+  const IrradianceResult fine = Simulate(scene, At(0.02));
+  for (const double budget : { 1e-6, 0.02 })
   {
     IrradianceCache cache;
-    IrradianceOptions options = At(0.01);
+    IrradianceOptions options = At(0.02);
     options.TimeBudget = budget;
     const IrradianceResult hasty = Simulate(scene, options, &cache);
     EXPECT_LE(hasty.Cost.PredictedSeconds, budget);
@@ -280,13 +280,13 @@ TEST(DirectRefinement, ABudgetLeavesHonestValuesThatALaterRunMakesFine)
     {
       EXPECT_NE(hasty.Outcome.find("time budget"), std::string::npos);
     }
-    const IrradianceResult later = Simulate(scene, At(0.01), &cache);
+    const IrradianceResult later = Simulate(scene, At(0.02), &cache);
     EXPECT_EQ(later.Outcome.find("time budget"), std::string::npos);
     EXPECT_GE(Agreeing(later.Cells[0], fine.Cells[0]), 0.97) << budget;
     for (std::size_t i = 0; i < later.Cells[0].Values.size(); ++i)
     {
       EXPECT_LE(later.Cells[0].Errors[i],
-        std::max(0.018 * later.Cells[0].Values[i], 1.5 * fine.Cells[0].Errors[i]) + 1e-6)
+        std::max(0.036 * later.Cells[0].Values[i], 1.5 * fine.Cells[0].Errors[i]) + 1e-6)
         << i;
     }
   }
@@ -299,7 +299,7 @@ TEST(DirectRefinement, AStoppedRunIsGoneOnWith)
   public:
     bool Progress(double fraction, const char*) override { return fraction < 0.5; }
   };
-  const Scene scene = AllKinds(16);
+  const Scene scene = AllKinds(10);
   IrradianceCache cache;
   Stops stops;
   EXPECT_THROW(SimulateIrradiance(scene, {}, At(0.02), &stops, &cache), Aborted);
