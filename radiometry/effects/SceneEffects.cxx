@@ -309,20 +309,53 @@ bool SceneEffects::Drop(Effect effect, double allowed)
   return true;
 }
 
+/// True for the one kind of light that there is: beside nothing it is not small.
+bool SceneEffects::IsAllLight(Effect effect) const
+{
+  if (this->AbsoluteTolerance > 0.0 || !this->Whole.GlobalAmbient.empty())
+  {
+    return false;
+  }
+  int sources = 0;
+  bool source = false;
+  for (const Effect kind : { Effect::Environment, Effect::AreaLights, Effect::Emission,
+         Effect::PointLights, Effect::SpotLights, Effect::DirectionalLights })
+  {
+    sources += this->Decided[kind].Present && this->Decided[kind].Simulated ? 1 : 0;
+    source = source || kind == effect;
+  }
+  return source && sources <= 1;
+}
+
 void SceneEffects::DropSmall(const EffectAbilities& abilities)
 {
+  // What takes longest comes first. Backs stay: their values are asked for. Without a light there is
+  // nothing that could be hidden.
+  std::vector<Effect> candidates;
+  for (const Effect effect : { Effect::SpecularTransport, Effect::Interreflection,
+         Effect::Transmission, Effect::Environment, Effect::AreaLights, Effect::Emission,
+         Effect::CandelaWebs, Effect::Attenuation, Effect::SpotShape, Effect::PointLights,
+         Effect::SpotLights, Effect::DirectionalLights, Effect::Mirrors, Effect::SpectralBands })
+  {
+    const EffectDecision& d = this->Decided[effect];
+    if (d.Present && d.Simulated && d.Wish == EffectSwitch::Auto && !this->IsAllLight(effect))
+    {
+      candidates.push_back(effect);
+    }
+  }
+  // Bounds are found only where they may serve: they cost about what direct light in the open does.
+  const bool occlusion = !abilities.Interreflection && this->Decided[Effect::Occlusion].Present;
+  if (candidates.empty() && !occlusion)
+  {
+    return;
+  }
   const double allowed = this->Allowed(
     this->RelativeTolerance > 0.0 ? this->Limits.LeastValue(this->Decided) : 0.0);
   if (!(allowed > 0.0))
   {
     return;
   }
-  // What takes longest comes first. Backs stay: their values are asked for. Without a light there is
-  // nothing that could be hidden.
-  for (const Effect effect : { Effect::SpecularTransport, Effect::Interreflection,
-         Effect::Transmission, Effect::Environment, Effect::AreaLights, Effect::Emission,
-         Effect::CandelaWebs, Effect::Attenuation, Effect::SpotShape, Effect::PointLights,
-         Effect::SpotLights, Effect::DirectionalLights, Effect::Mirrors, Effect::SpectralBands })
+  for (const Effect effect : candidates)
   {
     this->Drop(effect, allowed);
   }

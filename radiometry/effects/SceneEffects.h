@@ -105,6 +105,7 @@ private:
   void DecideSampling(const EffectAbilities& abilities, const std::vector<SurfacePoint>& points,
     bool cells);
   /// Auto drops what cannot matter beside the tolerance of any value.
+  bool IsAllLight(Effect effect) const;
   void DropSmall(const EffectAbilities& abilities);
   /// Whether light is followed from surface to surface.
   bool FollowsLight() const;

@@ -25,6 +25,8 @@ constexpr double EnoughDoubt = 0.12;
 constexpr std::size_t FewestPilot = 4;
 constexpr double FewDoubt = 0.3;
 constexpr double LeastSeconds = 0.02;
+/// Of the clock's time in a pilot: threads end small chunks one after the other.
+constexpr double ClockShare = 0.8;
 /// Seconds that a value takes which is only bounded, on one thread.
 constexpr double BlindSeconds = 0.4e-6;
 /// Seconds a receiver that tree and clusters take.
@@ -361,6 +363,7 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
     }
   }
   ItemCost cost;
+  double wall = 0.0;
   const std::size_t enough = std::min((items.size() + 2) / 3,
     std::max(LeastPilot, static_cast<std::size_t>(PilotShare * static_cast<double>(items.size()))));
   const auto sure = [&] {
@@ -376,7 +379,9 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
   {
     const std::vector<std::uint32_t> chunk = some(std::min(next, enough - cost.Items));
     done += chunk.size();
+    const ConvergenceRecord round;
     work.Run(chunk, limits, stage, &cost, tally);
+    wall += round.Elapsed();
     next *= 2;
   }
   if (cost.Items == 0)
@@ -384,8 +389,12 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
     cost = warm;
   }
   const std::size_t left = all.size() - std::min(all.size(), done);
-  this->Rest[kind] = cost.Mean() * static_cast<double>(left) /
+  // By the time of each thread, or by the clock where threads wait for processors that others use.
+  const double byThreads = cost.Mean() * static_cast<double>(left) /
     static_cast<double>(std::max<std::size_t>(1, std::min(workers, left)));
+  const double byClock = ClockShare * wall * static_cast<double>(left) /
+    static_cast<double>(std::max<std::size_t>(1, cost.Items));
+  this->Rest[kind] = std::max(byThreads, byClock);
 }
 
 template <typename Receiver>
