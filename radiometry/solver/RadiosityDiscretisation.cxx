@@ -216,8 +216,11 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
     // Each division shrinks the change by `ratio`, by two (elements that something divides, a wall's
     // foot across them) to four: the changes still to come sum to 1/(ratio - 1). Where it seems to
     // shrink faster, elements happen to lie well (a foot on an edge) or the merged ones badly, and
-    // neither lasts; then, and wherever it is small at a place by chance, a quarter of the coarser
-    // change is taken, up to twice the mean of the finer.
+    // neither lasts: what is left is then a quarter to a half of the coarser change, as the elements
+    // lie. Wherever the change is small at a place by chance, a quarter of the coarser is taken, up to
+    // twice the mean of the finer.
+    const double irregular =
+      coarse > 4.0 * fine ? std::min(0.25 * (coarse / std::max(fine, 1e-3 * coarse) - 3.0), 0.5) : 0.0;
     const double ratio = coarse > 5.0 * fine ? IrregularRatio
       : fine > 0.0                           ? std::clamp(coarse / fine, 2.0, 4.0)
                                              : 4.0;
@@ -225,8 +228,10 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
     for (std::size_t k = b; k < values; k += nb)
     {
       const double quarter = std::min(0.25 * std::abs(change[1][k]), most);
-      this->Discretisation[k] = DiscretisationSafety / (ratio - 1.0) *
-        std::copysign(std::max(std::abs(change[0][k]), quarter), change[0][k]);
+      const double left =
+        DiscretisationSafety / (ratio - 1.0) * std::max(std::abs(change[0][k]), quarter);
+      this->Discretisation[k] =
+        std::copysign(std::max(left, irregular * std::abs(change[1][k])), change[0][k]);
     }
   }
 }
