@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace radiometry
@@ -270,6 +271,98 @@ void MonteCarloOperator::Apply(const double* B, double* out, int bands) const
   }
 }
 
+namespace
+{
+
+/// How bright what an element's rays did not meet may be: of each component and band, what is exceeded
+/// on a half, a quarter ... of its area.
+class UnmetLight
+{
+public:
+  UnmetLight(const std::vector<double>& B, std::size_t bands, const std::vector<std::int32_t>& component,
+    const std::vector<double>& areas)
+    : Component(component)
+    , Bands(bands)
+  {
+    const auto n = areas.size();
+    std::vector<std::int32_t> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    const std::size_t count =
+      n == 0 ? 0 : static_cast<std::size_t>(*std::max_element(component.begin(), component.end())) + 1;
+    std::vector<double> whole(count, 0.0), above(count);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      whole[static_cast<std::size_t>(component[i])] += areas[i];
+    }
+    this->Level.assign(count * bands * Levels, 0.0);
+    for (std::size_t b = 0; b < bands; ++b)
+    {
+      const auto of = [&](std::int32_t i) { return B[static_cast<std::size_t>(i) * bands + b]; };
+      std::sort(order.begin(), order.end(),
+        [&](std::int32_t i, std::int32_t j) { return of(i) > of(j) || (of(i) == of(j) && i < j); });
+      std::fill(above.begin(), above.end(), 0.0);
+      for (const std::int32_t i : order)
+      {
+        const auto c = static_cast<std::size_t>(component[static_cast<std::size_t>(i)]);
+        const double before = above[c];
+        above[c] += areas[static_cast<std::size_t>(i)];
+        double share = 0.5 * whole[c];
+        for (std::size_t k = 0; k < Levels; ++k, share *= 0.5)
+        {
+          if (before < share && above[c] >= share)
+          {
+            this->Level[(c * bands + b) * Levels + k] = of(i);
+          }
+        }
+      }
+    }
+  }
+
+  /// What arrives of surfaces brighter than any that was met, one ray in so many being one that
+  /// would have met them; a part of the area is seen under no more than four times its share.
+  double Of(std::size_t element, std::size_t band, double met, double rays) const
+  {
+    const auto c = static_cast<std::size_t>(this->Component[element]);
+    const double* level = this->Level.data() + (c * this->Bands + band) * Levels;
+    double most = 0.0, share = 0.5;
+    for (std::size_t k = 0; k < Levels; ++k, share *= 0.5)
+    {
+      most = std::max(most, (level[k] - met) * std::min(1.0 / rays, 4.0 * share));
+    }
+    return most;
+  }
+
+private:
+  static constexpr std::size_t Levels = 14;
+  const std::vector<std::int32_t>& Component;
+  std::size_t Bands;
+  std::vector<double> Level;
+};
+
+} // namespace
+
+double MonteCarloOperator::GreatestMet(
+  std::size_t row, const double* scaled, std::size_t bands, std::size_t band) const
+{
+  double most = 0.0;
+  for (const Round& round : this->Rounds)
+  {
+    for (std::size_t k = round.Begin[row]; k < round.Begin[row + 1]; ++k)
+    {
+      most = round.Hit[k] < 0
+        ? most
+        : std::max(most, scaled[static_cast<std::size_t>(round.Hit[k]) * bands + band]);
+    }
+    for (std::size_t k = round.PartBegin.empty() ? 0 : round.PartBegin[row * Batches],
+                     end = round.PartBegin.empty() ? 0 : round.PartBegin[(row + 1) * Batches];
+         k < end; ++k)
+    {
+      most = std::max(most, scaled[static_cast<std::size_t>(round.PartHit[k]) * bands + band]);
+    }
+  }
+  return most;
+}
+
 void MonteCarloOperator::ApplyError(
   const double* B, double* formFactor, double* visibility, int bands) const
 {
@@ -283,6 +376,9 @@ void MonteCarloOperator::ApplyError(
   }
   std::fill(formFactor, formFactor + n * nb, 0.0); // rays sample both at once
   std::vector<double> means(this->Around.empty() ? 0 : n * nb, 0.0);
+  // Of differences of light nothing is known to be bright.
+  const bool light = std::none_of(scaled.begin(), scaled.end(), [](double v) { return v < 0.0; });
+  const UnmetLight unmet(scaled, light ? nb : 0, this->Component, this->Areas());
   ParallelFor(
     this->Share.End - this->Share.Begin, this->Options.Threads, {},
     [&](std::size_t row) {
@@ -310,8 +406,12 @@ void MonteCarloOperator::ApplyError(
           const double off = sums[batch * nb + b] / perBatch - mean;
           square += off * off;
         }
+        const double missed = !light
+          ? 0.0
+          : unmet.Of(i, b, this->GreatestMet(row, scaled.data(), nb, b),
+              static_cast<double>(std::max(1, this->RaysOf[i])));
         visibility[i * nb + b] =
-          std::sqrt(square / (Batches * (Batches - 1.0))) + cut * greatest[b];
+          std::sqrt(square / (Batches * (Batches - 1.0)) + missed * missed) + cut * greatest[b];
         if (!means.empty())
         {
           means[i * nb + b] = mean;

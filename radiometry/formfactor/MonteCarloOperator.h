@@ -27,8 +27,8 @@ namespace radiometry
 ///   Energy   components that lose no ray are also made to conserve energy: with a = A alpha,
 ///            G = F alpha^-1 (no paths: a = A, G = F), G + 1 w^T with w = (a - G^T a)/sum a, the
 ///            least change that gives a^T G = a^T and keeps row sums
-///   Error    the spread of the batches; paths given up after thousands of mirrors count with the
-///            greatest radiosity
+///   Error    the spread of the batches, and what surfaces brighter than any met would give by one
+///            ray; paths given up after thousands of mirrors count with the greatest radiosity
 ///   Blockers rays that meet a side that does not receive are absorbed
 ///   Memory   4 bytes a ray; where the bands of a path differ, 4 more and 4 for each band
 ///   Cost     one ray each, times log(triangles), and one for each reflection
@@ -136,6 +136,10 @@ private:
   /// Adds what leaves the elements met in a batch (-1: all) of row r of this rank.
   void SumRow(const Round& round, std::size_t row, int batch, const double* scaled,
     std::size_t bands, double* sum) const;
+
+  /// The greatest of what row r's paths ended on.
+  double GreatestMet(
+    std::size_t row, const double* scaled, std::size_t bands, std::size_t band) const;
 
   std::shared_ptr<const OcclusionScene> Occluders;
   std::shared_ptr<const ElementSet> Elements;

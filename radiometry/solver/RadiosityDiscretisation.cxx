@@ -216,11 +216,11 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
     // Each division shrinks the change by `ratio`, by two (elements that something divides, a wall's
     // foot across them) to four: the changes still to come sum to 1/(ratio - 1). Where it seems to
     // shrink faster, elements happen to lie well (a foot on an edge) or the merged ones badly, and
-    // neither lasts: what is left is then a quarter to a half of the coarser change, as the elements
+    // neither lasts: what is left is then a quarter to three of the coarser change, as the elements
     // lie. Wherever the change is small at a place by chance, a quarter of the coarser is taken, up to
     // twice the mean of the finer.
     const double irregular =
-      coarse > 4.0 * fine ? std::min(0.25 * (coarse / std::max(fine, 1e-3 * coarse) - 3.0), 0.5) : 0.0;
+      coarse > 4.0 * fine ? std::min(0.25 * (coarse / std::max(fine, 1e-3 * coarse) - 3.0), 0.75) : 0.0;
     const double ratio = coarse > 5.0 * fine ? IrregularRatio
       : fine > 0.0                           ? std::clamp(coarse / fine, 2.0, 4.0)
                                              : 4.0;
