@@ -23,6 +23,7 @@ constexpr double OwnSightShare = 0.02;  // of what differs by the near ones: ali
 constexpr std::int32_t MostProven = 64; // elements of a cluster for which proofs are tried
 constexpr std::size_t MostBetween = 12; // triangles between
 constexpr double Negligible = 0.05; // share of the allowance below which what is hidden is left out
+constexpr double Unmixed = 0.3;     // of the doubt, where rays of larger clusters agreed, too
 constexpr double Bent = 1.7;        // the rule sees four mean normals of a curved cluster, not all
 // What of the unevenness of the kernel over the far elements shows in a row, root mean square.
 constexpr double FarShare = 0.5;
@@ -422,9 +423,10 @@ ClusterRefiner::View ClusterRefiner::LookByRays(const Open& open, double factor,
     sight.SpreadA = spread * std::sqrt(shareA);
     sight.SpreadB = spread * std::sqrt(1.0 - shareA);
   }
-  else if (open.Mixed)
+  else
   {
-    sight.Error = std::sqrt(Unnoticed(cast));
+    // Of pairs for which there is no proof fewer are seen in part where no ray said so above.
+    sight.Error = (open.Mixed ? 1.0 : Unmixed) * std::sqrt(Unnoticed(cast));
   }
   return sight;
 }

@@ -318,8 +318,8 @@ public:
     }
   }
 
-  /// What arrives of surfaces brighter than any that was met, one ray in so many being one that
-  /// would have met them; a part of the area is seen under no more than four times its share.
+  /// What arrives of surfaces brighter than any that was met, half a ray being one that would have
+  /// met them; a part of the area is seen under no more than twice its share.
   double Of(std::size_t element, std::size_t band, double met, double rays) const
   {
     const auto c = static_cast<std::size_t>(this->Component[element]);
@@ -327,7 +327,7 @@ public:
     double most = 0.0, share = 0.5;
     for (std::size_t k = 0; k < Levels; ++k, share *= 0.5)
     {
-      most = std::max(most, (level[k] - met) * std::min(1.0 / rays, 4.0 * share));
+      most = std::max(most, (level[k] - met) * std::min(0.5 / rays, 2.0 * share));
     }
     return most;
   }

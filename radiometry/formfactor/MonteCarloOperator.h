@@ -27,8 +27,8 @@ namespace radiometry
 ///   Energy   components that lose no ray are also made to conserve energy: with a = A alpha,
 ///            G = F alpha^-1 (no paths: a = A, G = F), G + 1 w^T with w = (a - G^T a)/sum a, the
 ///            least change that gives a^T G = a^T and keeps row sums
-///   Error    the spread of the batches, and what surfaces brighter than any met would give by one
-///            ray; paths given up after thousands of mirrors count with the greatest radiosity
+///   Error    the spread of the batches, and what surfaces brighter than any met would give by half
+///            a ray; paths given up after thousands of mirrors count with the greatest radiosity
 ///   Blockers rays that meet a side that does not receive are absorbed
 ///   Memory   4 bytes a ray; where the bands of a path differ, 4 more and 4 for each band
 ///   Cost     one ray each, times log(triangles), and one for each reflection

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // RadiosityLevel: the error of constant elements.
+#include "radiometry/formfactor/StraddledElements.h"
 #include "radiometry/solver/RadiosityLevel.h"
 #include "radiometry/solver/RadiositySolver.h"
 
@@ -203,6 +204,7 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
       change[level][k] = square > 0.0 ? std::copysign(std::sqrt(square), arrived[at]) : 0.0;
     }
   }
+  int straddled = -1; // not known
   for (std::size_t b = 0; b < nb; ++b)
   {
     double fine = 0.0, coarse = 0.0, area = 0.0;
@@ -216,11 +218,17 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
     // Each division shrinks the change by `ratio`, by two (elements that something divides, a wall's
     // foot across them) to four: the changes still to come sum to 1/(ratio - 1). Where it seems to
     // shrink faster, elements happen to lie well (a foot on an edge) or the merged ones badly, and
-    // neither lasts: what is left is then a quarter to three of the coarser change, as the elements
-    // lie. Wherever the change is small at a place by chance, a quarter of the coarser is taken, up to
-    // twice the mean of the finer.
-    const double irregular =
-      coarse > 4.0 * fine ? std::min(0.25 * (coarse / std::max(fine, 1e-3 * coarse) - 3.0), 0.75) : 0.0;
+    // neither lasts: where elements are still divided by something, what is left is a quarter to three
+    // of the coarser change, as they lie. Wherever the change is small at a place by chance, a quarter
+    // of the coarser is taken, up to twice the mean of the finer.
+    double irregular = 0.0;
+    if (coarse > 4.0 * fine)
+    {
+      straddled = straddled >= 0 ? straddled
+        : AnyStraddled(context.Geometry, this->Elements, context.Options.Threads) ? 1 : 0;
+      irregular =
+        straddled * std::min(0.25 * (coarse / std::max(fine, 1e-3 * coarse) - 3.0), 0.75);
+    }
     const double ratio = coarse > 5.0 * fine ? IrregularRatio
       : fine > 0.0                           ? std::clamp(coarse / fine, 2.0, 4.0)
                                              : 4.0;
