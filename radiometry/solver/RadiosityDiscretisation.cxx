@@ -218,16 +218,16 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
     // Each division shrinks the change by `ratio`, by two (elements that something divides, a wall's
     // foot across them) to four: the changes still to come sum to 1/(ratio - 1). Where it seems to
     // shrink faster, elements happen to lie well (a foot on an edge) or the merged ones badly, and
-    // neither lasts: where elements are still divided by something, what is left is a quarter to three
-    // of the coarser change, as they lie. Wherever the change is small at a place by chance, a quarter
+    // neither lasts: what is left is then up to three quarters of the coarser change where elements are
+    // still divided by something, and up to half as much where it only stands near them. Wherever the change is small at a place by chance, a quarter
     // of the coarser is taken, up to twice the mean of the finer.
     double irregular = 0.0;
     if (coarse > 4.0 * fine)
     {
       straddled = straddled >= 0 ? straddled
         : AnyStraddled(context.Geometry, this->Elements, context.Options.Threads) ? 1 : 0;
-      irregular =
-        straddled * std::min(0.25 * (coarse / std::max(fine, 1e-3 * coarse) - 3.0), 0.75);
+      irregular = (straddled ? 1.0 : 0.5) *
+        std::min(0.25 * (coarse / std::max(fine, 1e-3 * coarse) - 3.0), 0.75);
     }
     const double ratio = coarse > 5.0 * fine ? IrregularRatio
       : fine > 0.0                           ? std::clamp(coarse / fine, 2.0, 4.0)
