@@ -205,6 +205,8 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
     }
   }
   int straddled = -1; // not known
+  std::size_t cells = 0;
+  const std::vector<std::int32_t> cell = this->Elements.CellGroups(cells);
   for (std::size_t b = 0; b < nb; ++b)
   {
     double fine = 0.0, coarse = 0.0, area = 0.0;
@@ -233,11 +235,26 @@ void RadiosityLevel::Discretise(const RadiosityContext& context,
       : fine > 0.0                           ? std::clamp(coarse / fine, 2.0, 4.0)
                                              : 4.0;
     const double most = 2.0 * fine / area;
+    // A cell on which it shrinks less by itself counts half by that and half by all.
+    std::vector<double> fineOf(cells, 0.0), coarseOf(cells, 0.0), areaOf(cells, 0.0);
+    for (std::size_t e = 0; e < n; ++e)
+    {
+      const double a = this->Elements.GetAreas()[e];
+      const auto c = static_cast<std::size_t>(cell[e]);
+      fineOf[c] += a * std::abs(change[0][e * nb + b]);
+      coarseOf[c] += a * std::abs(change[1][e * nb + b]);
+      areaOf[c] += a;
+    }
     for (std::size_t k = b; k < values; k += nb)
     {
+      const auto c = static_cast<std::size_t>(cell[k / nb]);
+      const double own = fine > 0.0 ? std::clamp((coarseOf[c] + areaOf[c] * coarse / area) /
+                                          (fineOf[c] + areaOf[c] * fine / area),
+                                        2.0, 4.0)
+                                    : 4.0;
       const double quarter = std::min(0.25 * std::abs(change[1][k]), most);
-      const double left =
-        DiscretisationSafety / (ratio - 1.0) * std::max(std::abs(change[0][k]), quarter);
+      const double left = DiscretisationSafety / (std::min(ratio, own) - 1.0) *
+        std::max(std::abs(change[0][k]), quarter);
       this->Discretisation[k] =
         std::copysign(std::max(left, irregular * std::abs(change[1][k])), change[0][k]);
     }
