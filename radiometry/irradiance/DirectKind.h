@@ -28,6 +28,13 @@ struct ReceiverGroups
   const std::uint32_t* End(std::size_t g) const { return this->Order.data() + this->First[g + 1]; }
 };
 
+/// Clusters of patches, or neighbouring points, where lights are asked for them together; else runs of
+/// the order that they have.
+ReceiverGroups MakeReceiverGroups(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<Patch>& patches, const DirectOptions& options);
+ReceiverGroups MakeReceiverGroups(const Scene& scene, const OcclusionScene& occluders,
+  const std::vector<SurfacePoint>& points, const DirectOptions& options);
+
 /// Seconds that items took, each on the thread that had it.
 struct ItemCost
 {

@@ -5,7 +5,6 @@
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/irradiance/AreaIrradiance.h"
 #include "radiometry/irradiance/BeamIrradiance.h"
-#include "radiometry/irradiance/PatchClusters.h"
 #include "radiometry/irradiance/SkyIrradiance.h"
 
 #include <algorithm>
@@ -17,79 +16,10 @@ namespace radiometry
 namespace
 {
 
-/// Of the items, and at least so many, are looked at by a pilot, of few items no more than a third ...
-constexpr double PilotShare = 0.08;
-constexpr std::size_t LeastPilot = 32;
-/// ... unless what it says is sure enough before: standard deviation of the mean, relative.
-constexpr double EnoughDoubt = 0.12;
-constexpr std::size_t FewestPilot = 4;
-constexpr double FewDoubt = 0.3;
-constexpr double LeastSeconds = 0.02;
-/// Of the clock's time in a pilot: threads end small chunks one after the other.
-constexpr double ClockShare = 0.8;
 /// Seconds that a value takes which is only bounded, on one thread.
 constexpr double BlindSeconds = 0.4e-6;
 /// Seconds a receiver that tree and clusters take.
 constexpr double GroupSeconds = 0.8e-6;
-/// Clusters are made in space for so many lights and more, were nothing in the way.
-constexpr std::size_t ManyLights = 32;
-
-/// Runs of 64 of an order.
-ReceiverGroups Runs(std::vector<std::uint32_t> order)
-{
-  ReceiverGroups groups;
-  PlainGroups(order.size(), groups.Order, groups.First);
-  groups.Order = std::move(order);
-  return groups;
-}
-
-std::vector<std::uint32_t> Identity(std::size_t n)
-{
-  std::vector<std::uint32_t> order(n);
-  std::iota(order.begin(), order.end(), 0u);
-  return order;
-}
-
-/// Receivers that are computed together.
-ReceiverGroups MakeGroups(const Scene& scene, const OcclusionScene& occluders,
-  const std::vector<Patch>& patches, const DirectOptions& options)
-{
-  if (!AnyBeam(scene, options))
-  {
-    return Runs(Identity(patches.size()));
-  }
-  if (!options.Occlusion || scene.Triangles.empty())
-  {
-    // Nothing is asked of the tree over the triangles: it need not be made.
-    if (scene.Lights.size() < ManyLights)
-    {
-      return Runs(Identity(patches.size()));
-    }
-    std::vector<Vec3> places;
-    places.reserve(patches.size());
-    for (const Patch& p : patches)
-    {
-      places.push_back(Centroid(p.Corners));
-    }
-    return Runs(SpatialOrder(places));
-  }
-  const PatchClusters clusters(scene, occluders, patches, options.Threads);
-  ReceiverGroups groups;
-  groups.Order.reserve(patches.size());
-  for (std::size_t c = 0; c < clusters.Size(); ++c)
-  {
-    groups.First.push_back(static_cast<std::uint32_t>(groups.Order.size()));
-    groups.Order.insert(groups.Order.end(), clusters.Begin(c), clusters.End(c));
-  }
-  groups.First.push_back(static_cast<std::uint32_t>(groups.Order.size()));
-  return groups;
-}
-ReceiverGroups MakeGroups(const Scene& scene, const OcclusionScene&,
-  const std::vector<SurfacePoint>& points, const DirectOptions& options)
-{
-  return AnyBeam(scene, options) ? PointGroups(points) : Runs(Identity(points.size()));
-}
-
 double WeightOf(const Patch& patch)
 {
   return Area(patch.Corners);
@@ -99,100 +29,7 @@ double WeightOf(const SurfacePoint&)
   return 1.0;
 }
 
-/// Places in [0, n), each once, spread over all of it from the first on.
-class SpreadOrder
-{
-public:
-  explicit SpreadOrder(std::size_t n)
-    : Count(n)
-    , Taken(n, 0)
-  {
-  }
-  bool Next(std::size_t& place)
-  {
-    if (this->Used == this->Count)
-    {
-      return false;
-    }
-    constexpr double golden = 0.6180339887498949;
-    this->At += golden;
-    this->At -= std::floor(this->At);
-    place = std::min(
-      this->Count - 1, static_cast<std::size_t>(this->At * static_cast<double>(this->Count)));
-    while (this->Taken[place] != 0)
-    {
-      place = place + 1 < this->Count ? place + 1 : 0;
-    }
-    this->Taken[place] = 1;
-    ++this->Used;
-    return true;
-  }
-
-private:
-  std::size_t Count;
-  std::size_t Used = 0;
-  double At = 0.5;
-  std::vector<std::uint8_t> Taken;
-};
-
-/// Adds the seconds of its life to those of a kind.
-class KindClock
-{
-public:
-  KindClock(const DirectOptions& options, std::size_t kind)
-    : Seconds(options.KindSeconds ? &(*options.KindSeconds)[kind] : nullptr)
-  {
-  }
-  ~KindClock()
-  {
-    if (this->Seconds)
-    {
-      *this->Seconds += this->Clock.Elapsed();
-    }
-  }
-  KindClock(const KindClock&) = delete;
-  KindClock& operator=(const KindClock&) = delete;
-
-private:
-  double* Seconds;
-  const ConvergenceRecord Clock;
-};
-
-template <typename Vector>
-std::size_t BytesOf(const Vector& v)
-{
-  return v.capacity() * sizeof(typename Vector::value_type);
-}
-
 } // namespace
-
-void DirectField::Begin(std::size_t receivers, std::size_t bands)
-{
-  if (this->State.size() == receivers && this->Value.size() == receivers * bands)
-  {
-    return;
-  }
-  *this = {};
-  this->State.assign(receivers, 0);
-  this->Value.assign(receivers * bands, 0.0);
-  this->Error = this->Value;
-}
-
-std::size_t DirectField::MemoryBytes() const
-{
-  return BytesOf(this->Value) + BytesOf(this->Error) + BytesOf(this->Dropped) +
-    BytesOf(this->State) + BytesOf(this->Spent) + BytesOf(this->Dark);
-}
-
-std::size_t DirectState::MemoryBytes() const
-{
-  std::size_t bytes = 0;
-  for (const DirectField& field : this->Fields)
-  {
-    bytes += field.MemoryBytes();
-  }
-  return bytes;
-}
 
 template <typename Receiver>
 DirectRun<Receiver>::DirectRun(const Scene& scene, const OcclusionScene& occluders,
@@ -210,14 +47,15 @@ DirectRun<Receiver>::DirectRun(const Scene& scene, const OcclusionScene& occlude
   this->RaysBefore = this->State->Rays;
   if (options.Ranks)
   {
-    this->Groups = MakeGroups(scene, occluders, receivers, options);
+    this->Groups = MakeReceiverGroups(scene, occluders, receivers, options);
     this->Share =
       std::make_unique<ReceiverShare>(*options.Ranks, this->Groups.Order, this->Groups.First);
     this->Own = this->Share->Take(receivers);
     this->Options.Numbers = this->Share->Begin();
     // Its own groups, in the order in which they were dealt.
     ReceiverGroups own;
-    own.Order = Identity(this->Own.size());
+    own.Order.resize(this->Own.size());
+    std::iota(own.Order.begin(), own.Order.end(), 0u);
     const auto rank = static_cast<std::size_t>(options.Ranks->Rank());
     const auto size = static_cast<std::size_t>(options.Ranks->Size());
     std::uint32_t at = 0;
@@ -266,7 +104,7 @@ void DirectRun<Receiver>::MakeKinds(const StageProgress& stage)
     if (k == 0 && !this->Share)
     {
       const ConvergenceRecord clock;
-      this->Groups = MakeGroups(this->Geometry, this->Occluders, mine, this->Options);
+      this->Groups = MakeReceiverGroups(this->Geometry, this->Occluders, mine, this->Options);
       const double usual = GroupSeconds * static_cast<double>(mine.size()) + 1e-3;
       this->Slowness = std::clamp(clock.Elapsed() / usual, 1.0, 20.0);
     }
@@ -309,110 +147,6 @@ std::size_t DirectRun<Receiver>::Waiting() const
     count += kind ? kind->Waiting().size() : 0;
   }
   return count;
-}
-
-/// Items of a kind that may come next: all that counts for them has been computed.
-template <typename Receiver>
-std::vector<std::uint32_t> DirectRun<Receiver>::Candidates(std::size_t kind) const
-{
-  std::vector<std::uint32_t> items = this->Kinds[kind]->Waiting();
-  for (std::size_t k = 0; k < kind; ++k)
-  {
-    if (this->Kinds[k])
-    {
-      items.erase(std::remove_if(items.begin(), items.end(),
-                    [&](std::uint32_t i) { return this->Kinds[k]->Waits(i); }),
-        items.end());
-    }
-  }
-  return items;
-}
-
-template <typename Receiver>
-void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, double most)
-{
-  const KindClock spent(this->Options, kind);
-  DirectKind& work = *this->Kinds[kind];
-  const std::vector<std::uint32_t> all = work.Waiting();
-  const std::vector<std::uint32_t> items =
-    kind == 0 ? all : this->Candidates(kind);
-  const ConvergenceRecord clock;
-  SpreadOrder order(items.size());
-  const auto some = [&](std::size_t count) {
-    std::vector<std::uint32_t> chunk;
-    std::size_t place = 0;
-    while (chunk.size() < count && order.Next(place))
-    {
-      chunk.push_back(items[place]);
-    }
-    std::sort(chunk.begin(), chunk.end());
-    return chunk;
-  };
-  const auto workers = static_cast<std::size_t>(this->Workers());
-  DirectKind::Limits limits;
-  const DirectKind::Tally tally = this->TallyOf(kind);
-  std::size_t done = 0;
-  ItemCost warm; // what the first ones take is not what the others do
-  for (const std::size_t count : { std::size_t{ 1 }, 2 * workers })
-  {
-    if (items.size() > 20 * count)
-    {
-      const std::vector<std::uint32_t> chunk = some(count);
-      done += chunk.size();
-      work.Run(chunk, limits, stage, &warm, tally);
-    }
-  }
-  ItemCost cost;
-  double wall = 0.0;
-  const std::size_t enough = std::min((items.size() + 2) / 3,
-    std::max(LeastPilot, static_cast<std::size_t>(PilotShare * static_cast<double>(items.size()))));
-  const auto sure = [&] {
-    // Of few and costly items fewer must do.
-    const bool tenth = cost.Items >= FewestPilot && 10 * done >= items.size() &&
-      cost.Doubt() < FewDoubt && clock.Elapsed() > LeastSeconds;
-    return cost.Items >= enough || tenth ||
-      (cost.Items >= LeastPilot && cost.Doubt() < EnoughDoubt) ||
-      (most > 0.0 && cost.Items > 0 && clock.Elapsed() > most);
-  };
-  std::size_t next = std::max<std::size_t>(4, workers);
-  while (done < items.size() && !sure())
-  {
-    const std::vector<std::uint32_t> chunk = some(std::min(next, enough - cost.Items));
-    done += chunk.size();
-    const ConvergenceRecord round;
-    work.Run(chunk, limits, stage, &cost, tally);
-    wall += round.Elapsed();
-    next *= 2;
-  }
-  if (cost.Items == 0)
-  {
-    cost = warm;
-  }
-  const std::size_t left = all.size() - std::min(all.size(), done);
-  // By the time of each thread, or by the clock where threads wait for processors that others use.
-  const double byThreads = cost.Mean() * static_cast<double>(left) /
-    static_cast<double>(std::max<std::size_t>(1, std::min(workers, left)));
-  const double byClock = ClockShare * wall * static_cast<double>(left) /
-    static_cast<double>(std::max<std::size_t>(1, cost.Items));
-  this->Rest[kind] = std::max(byThreads, byClock);
-}
-
-template <typename Receiver>
-double DirectRun<Receiver>::Pilot(const StageProgress& stage, double most)
-{
-  double rest = 0.0;
-  for (std::size_t k = 0; k < DirectKinds; ++k)
-  {
-    if (this->Kinds[k])
-    {
-      StageProgress part = stage;
-      part.Begin = part.End = stage.Begin;
-      this->PilotOf(k, part, most / DirectKinds);
-      rest += this->Rest[k];
-    }
-  }
-  Report(stage.Listener, stage.End, stage.Name);
-  return rest;
 }
 
 template <typename Receiver>

@@ -11,6 +11,29 @@
 namespace radiometry
 {
 
+/// Adds the seconds of its life to those of a kind.
+class KindClock
+{
+public:
+  KindClock(const DirectOptions& options, std::size_t kind)
+    : Seconds(options.KindSeconds ? &(*options.KindSeconds)[kind] : nullptr)
+  {
+  }
+  ~KindClock()
+  {
+    if (this->Seconds)
+    {
+      *this->Seconds += this->Clock.Elapsed();
+    }
+  }
+  KindClock(const KindClock&) = delete;
+  KindClock& operator=(const KindClock&) = delete;
+
+private:
+  double* Seconds;
+  const ConvergenceRecord Clock;
+};
+
 /// Direct light on receivers (patches, or points) in steps: a pilot on some that lie all over the
 /// surface, brought to the tolerance, which says what the rest will take; then the rest. The pilot's
 /// values are those that the run would have computed anyway.
