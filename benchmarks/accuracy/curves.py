@@ -143,7 +143,7 @@ def main():
         child(options)
         return
     wanted = options.only.split(",") if options.only else list(MAKERS)
-    old = result(options.out) if options.only else None
+    old = result(options.out)  # scenes that do not end keep what stands there, with its commit
     rows = {row["key"]: row for row in old["rows"]} if old else {}
     about = {"question": "error against time beside others", **provenance(), "threads": 1,
              "beside": options.jobs, "seconds": options.seconds}

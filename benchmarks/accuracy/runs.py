@@ -12,8 +12,8 @@ core each.
 - budget: a tolerance that cannot be reached, and seconds (of the clock) that are given.
 - parts: the error by its source, of the run at the tight tolerance; memory.
 
-Every run notes what it predicted. Writes benchmarks/results/accuracy-runs.json; --only keeps the other
-scenes that stand there.
+Every run notes what it predicted. Writes benchmarks/results/accuracy-runs.json; a scene that is not asked, or
+does not end, keeps what stands there.
 
     ./run --python benchmarks/accuracy/runs.py [--only SCENE,...] [--seconds 4] [--jobs 3]
 """
@@ -180,7 +180,7 @@ def main():
         child(options)
         return
     wanted = options.only.split(",") if options.only else list(MAKERS)
-    old = result(options.out) if options.only else None
+    old = result(options.out)  # scenes that do not end keep what stands there, with its commit
     rows = {row["key"]: row for row in old["rows"]} if old else {}
     about = {"question": "what the plan saves, and whether predictions and budgets hold",
              **provenance(), "threads": 1, "beside": options.jobs}

@@ -28,7 +28,8 @@ def saving_said(data):
     every = [(row, s) for row in data["rows"] for s in row["saving"]]
     open_ones = [(row, s) for row, s in every if row["open"]]
     slower = [(row, s) for row, s in every if s["ratio"] < SLOWER]
-    lines = [from_where(data) + "."]
+    commits = sorted({row["commit"] for row in data["rows"]})
+    lines = [from_where({**data, "commit": listed(commits)}) + "."]
     for name in ("Irradiance", "Radiosity"):
         ratios = [s["ratio"] for _, s in open_ones if s["filter"] == name]
         if ratios:
