@@ -15,7 +15,8 @@ all of it.
     ./run --python benchmarks/accuracy/curves.py [--site DIR] [--python-of-peer DIR/bin/python] ...
 
 The peers are optional: what is absent is left out, with a line. Writes
-benchmarks/results/accuracy-curves.json; --only keeps the other scenes that stand there.
+benchmarks/results/accuracy-curves.json; a scene that is not asked, or
+does not end, keeps what stands there.
 """
 import argparse
 import importlib.util
