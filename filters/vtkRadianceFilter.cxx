@@ -3,6 +3,8 @@
 
 #include "RadianceArrays.h"
 #include "RadiometricJob.h"
+#include "radiometry/effects/EffectBounds.h"
+#include "radiometry/effects/SimulatedScene.h"
 #include "radiometry/imaging/Camera.h"
 #include "radiometry/irradiance/OutgoingRadiance.h"
 #include "radiometry/irradiance/SeenSurface.h"
@@ -18,6 +20,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
 #include <iterator>
 
 namespace names = radiometry::names;
@@ -66,6 +72,37 @@ Vec3 Direction(const char* name, const double* v)
 
 using Result = vtkRadiometricFilter::Result;
 
+using radiometry::Effect;
+using radiometry::LightType;
+
+constexpr std::pair<Effect, LightType> LightKinds[] = { { Effect::PointLights, LightType::Point },
+  { Effect::SpotLights, LightType::Spot }, { Effect::DirectionalLights, LightType::Directional },
+  { Effect::AreaLights, LightType::Area } };
+
+bool IsOff(const vtkRadiometricFilter::Job& job, Effect effect)
+{
+  return job.Switches[static_cast<std::size_t>(effect)] == radiometry::EffectSwitch::Off;
+}
+
+/// The scene without the kinds of lights and the webs that are switched off; `made` holds it.
+const radiometry::Scene& WithLightsOfPlan(
+  const vtkRadiometricFilter::Job& job, std::unique_ptr<radiometry::Scene>& made)
+{
+  radiometry::SceneParts parts;
+  bool less = parts.WithoutWebs = IsOff(job, Effect::CandelaWebs);
+  for (const auto& [effect, type] : LightKinds)
+  {
+    parts.WithoutLights[static_cast<std::size_t>(type)] = IsOff(job, effect);
+    less = less || IsOff(job, effect);
+  }
+  if (less)
+  {
+    made = std::make_unique<radiometry::Scene>(radiometry::ReduceScene(
+      job.Scene, parts, radiometry::SingleBands(job.Scene.Optics.Bands)));
+  }
+  return less ? *made : job.Scene;
+}
+
 void AddRow(Result& result, radiometry::Effect effect, bool present, bool simulated,
   const std::string& why, double bound)
 {
@@ -75,6 +112,34 @@ void AddRow(Result& result, radiometry::Effect effect, bool present, bool simula
   row.Simulated = present && simulated;
   row.Why = present ? (simulated ? why : "switched off; " + why) : why;
   row.Bound = row.Present && !row.Simulated ? bound : 0.0;
+}
+
+/// Rows of the kinds of lights: what their light makes of the radiance that surfaces send, by lobes
+/// and, where it is computed here, by diffuse reflection.
+void AddLightRows(
+  const vtkRadiometricFilter::Job& job, bool diffuseHere, bool specular, Result& result)
+{
+  const auto row = [&](Effect effect, auto test, const std::string& what, const char* absent) {
+    const auto& lights = job.Scene.Lights;
+    const auto count = std::count_if(lights.begin(), lights.end(),
+      [&](const radiometry::Light& l) { return l.Enabled && test(l); });
+    const bool present = count > 0 && (diffuseHere || specular);
+    AddRow(result, effect, present, !IsOff(job, effect),
+      present ? std::to_string(count) + ' ' + what
+              : (count > 0 ? "its light is in the input, and nothing reflects it specularly" : absent),
+      present && IsOff(job, effect)
+        ? radiometry::BoundRadianceOf(job.Scene, job.Points, test, diffuseHere)
+        : 0.0);
+  };
+  static const char* const words[] = { "point", "spot", "directional", "area" };
+  for (std::size_t k = 0; k < std::size(LightKinds); ++k)
+  {
+    const LightType type = LightKinds[k].second;
+    row(LightKinds[k].first, [type](const radiometry::Light& l) { return l.Type == type; },
+      std::string(words[k]) + " lights are on", "there are none that are on");
+  }
+  row(Effect::CandelaWebs, [](const radiometry::Light& l) { return l.Web != nullptr; },
+    "lights have candela webs", "no light has a candela web");
 }
 
 /// Of a part of the run, whose prediction is not that of the run.
@@ -281,7 +346,8 @@ vtkRadianceFilter::Looking vtkRadianceFilter::FindViewer(const Job& job)
 
 void vtkRadianceFilter::Simulate(Job& job, Result& result)
 {
-  const radiometry::Scene& scene = job.Scene;
+  std::unique_ptr<radiometry::Scene> fewer;
+  const radiometry::Scene& scene = WithLightsOfPlan(job, fewer);
   if (!(this->FNumber >= 0.0) || !std::isfinite(this->FNumber))
   {
     throw InputError("FNumber", -1, this->FNumber, "a finite number above 0, or 0: no image");
@@ -484,6 +550,11 @@ void vtkRadianceFilter::Simulate(Job& job, Result& result)
     legacy ? "lights carry a legacy attenuation a + b r + c r^2 other than r^2"
            : "all lights that make highlights obey the inverse square law",
     bound);
+  AddLightRows(job, !light.Any, specular, result);
+  for (std::size_t k = 0; k < result.Effects.size(); ++k)
+  {
+    result.Effects[k].Wish = job.Switches[k];
+  }
 }
 
 void vtkRadianceFilter::CopyMembers(vtkRadiometricAlgorithm* from)

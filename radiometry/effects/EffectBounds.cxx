@@ -373,4 +373,25 @@ double EffectBounds::Of(Effect effect, const EffectPlan& plan, bool indirect, do
   }
 }
 
+double BoundRadianceOf(const Scene& scene, const std::vector<SurfacePoint>& points,
+  const std::function<bool(const Light&)>& takes, bool diffuse)
+{
+  constexpr double pi = 3.14159265358979323846;
+  Scene some = scene;
+  double panels = 0.0;
+  for (Light& light : some.Lights)
+  {
+    light.Enabled = light.Enabled && takes(light);
+    panels += light.Enabled && light.Type == LightType::Area ? Brightest(light) : 0.0;
+  }
+  const OpticalLimits o = FindOpticalLimits(scene);
+  const double peak = BoundLights(some, points, true, true, { true, true, true }).All.Peak;
+  const bool lamps = std::any_of(some.Lights.begin(), some.Lights.end(), [](const Light& light) {
+    return light.Enabled && light.Type != LightType::Area;
+  });
+  const double lobes = lamps ? Times(o.Lobe, peak) : Times(o.Specular, panels);
+  const double sent = Times(diffuse ? o.Scattered : 0.0, peak) + lobes + Times(o.Carried, panels);
+  return Times(Rest(o.Carried), sent) / pi;
+}
+
 } // namespace radiometry

@@ -9,6 +9,7 @@
 #include "radiometry/scene/Scene.h"
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -106,5 +107,12 @@ private:
   std::unique_ptr<LightBounds> Light;
   std::unique_ptr<SpecularReach> Mirrored;
 };
+
+/// What the lights that `takes` names add at most to the radiance that any surface sends [W/(m^2 sr)],
+/// by lobes, and by diffuse reflection where `diffuse`: of the irradiance E at any place ((n + 2)/2
+/// rho_s + d) E/pi, and what stays radiance of that; panels are also seen themselves. Infinite where
+/// mirrors may show a lamp.
+double BoundRadianceOf(const Scene& scene, const std::vector<SurfacePoint>& points,
+  const std::function<bool(const Light&)>& takes, bool diffuse);
 
 } // namespace radiometry

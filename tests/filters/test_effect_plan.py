@@ -2,8 +2,10 @@
 """The effect plan as users read it: the table, the field data, Explain(); and its switches."""
 import numpy as np
 from checks import array, cell_values, run_all, simulation, square, strings
+from rooms import with_array
 from vtkradiometry import (vtkAreaLightSource, vtkDirectionalLightSource, vtkIrradianceFilter,
-                           vtkPointLightSource, vtkRadiosityFilter, vtkSpotLightSource)
+                           vtkPointLightSource, vtkRadianceFilter, vtkRadiosityFilter,
+                           vtkSpotLightSource)
 
 COLUMNS = ["Effect", "Switch", "Decision", "Bound", "Unit", "Seconds", "Why"]
 EFFECTS = ["Occlusion", "Interreflection", "SpecularTransport", "Transmission", "BackFaces",
@@ -85,6 +87,25 @@ def test_each_kind_of_light_can_be_switched_off():
         assert (on - off).max() <= row["Bound"] <= 20.0 * max((on - off).max(), 1e-3), row
         rest += on - off
     assert np.abs(rest - on).max() <= 1e-9 * on.max()
+
+
+def test_radiance_has_rows_and_switches_of_lights_too():
+    def run(*given, **properties):
+        data = with_array(square(3), "SpecularReflectance", 0.3)
+        f = simulation(vtkRadianceFilter, with_array(data, "Shininess", 20.0), *given, **properties)
+        f.SetViewPoint(0.5, -0.5, 1.0)
+        return f
+    point, spot, sun, _ = lights()
+    on = cell_values(run(point, spot, sun), "Radiance")
+    for kind, light in zip(("PointLights", "SpotLights", "DirectionalLights"), (point, spot, sun)):
+        f = run(point, spot, sun, **{kind: OFF})
+        change = on - cell_values(f, "Radiance")
+        alone = cell_values(run(light), "Radiance")
+        assert np.abs(change - alone).max() <= 0.05 * on.max(), kind
+        row = rows(f)[kind]
+        assert row["Switch"] == "Off" and row["Decision"] == "left out", row
+        assert row["Unit"] == "W/(m^2 sr)" and change.max() <= row["Bound"] < 1000 * change.max(), row
+    assert rows(run(point))["SpotLights"]["Decision"] == "not needed"
 
 
 def test_faint_lights_are_dropped_and_their_bound_is_in_the_errors():
