@@ -241,6 +241,8 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   options.SecondsBefore = clock.Elapsed();
   ShareTime(points, options);
   options.PointsAfter = points.size();
+  options.SurfaceOnly = std::all_of(
+    points.begin(), points.end(), [](const SurfacePoint& p) { return p.Triangle >= 0; });
   auto made = std::make_unique<RadiositySimulation>(scene, options, kept);
   RadiositySimulation& simulation = *made;
   const double share = points.empty() ? 0.98 : (cells ? 0.8 : 0.6);

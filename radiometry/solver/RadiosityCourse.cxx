@@ -122,7 +122,8 @@ std::unique_ptr<RadiosityLevel> RadiosityRun::Next(const RadiosityAdvance& advan
   return next;
 }
 
-void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& stage)
+void RadiosityRun::BuildOperator(
+  RadiosityLevel& level, const ElementSet& coarsest, const StageProgress& stage)
 {
   const double begin = this->Result.Convergence.Elapsed();
   ExchangeOptions exchange = this->Context.Exchange();
@@ -153,8 +154,13 @@ void RadiosityRun::BuildOperator(RadiosityLevel& level, const StageProgress& sta
   }
   else
   {
+    OperatorClock clock(*this, level, stage);
+    StageProgress told = stage;
+    const bool last =
+      4 * level.Elements.Size() > this->MostElements(level.Method, coarsest.Size());
+    told.Listener = last ? &clock : stage.Listener;
     level.F = std::make_unique<DenseOperator>(
-      this->Context.Geometry, this->Context.Occluders, level.Elements, exchange, stage);
+      this->Context.Geometry, this->Context.Occluders, level.Elements, exchange, told);
   }
   level.ExchangeSeconds = this->Agreed(this->Result.Convergence.Elapsed() - begin);
 }

@@ -4,6 +4,7 @@
 #include "radiometry/effects/CompiledEffects.h"
 #include "radiometry/formfactor/GroupedOperator.h"
 #include "radiometry/solver/BalanceError.h"
+#include "radiometry/solver/BlindSides.h"
 #include "radiometry/geometry/Sampling.h"
 #include "radiometry/solver/ElementOverlap.h"
 #include "radiometry/solver/LightKey.h"
@@ -67,6 +68,15 @@ RadiosityContext::RadiosityContext(
       scene, options.SpecularTransport, options.PathTransmission, options.BackFaces);
     this->Paths = paths->Empty() ? nullptr : paths;
   }
+}
+
+const std::vector<std::array<std::uint8_t, 2>>& RadiosityContext::Blind() const
+{
+  if (this->BlindSides.empty())
+  {
+    this->BlindSides = FindBlindSides(this->Geometry);
+  }
+  return this->BlindSides;
 }
 
 ExchangeOptions RadiosityContext::Exchange() const
@@ -531,12 +541,13 @@ void RadiosityLevel::PoolSampling(const RadiosityContext& context)
   const std::size_t nb = context.Bands;
   std::size_t count = 0;
   const std::vector<std::int32_t> group = this->Elements.Groups(context.Geometry, 2, count);
-  Values square(count * nb, 0.0), rays(count, 0.0);
+  Values square(count * nb, 0.0), members(count, 0.0), rays(count, 0.0);
   for (std::size_t e = 0; e < group.size(); ++e)
   {
     // Brought to the variance of one ray: elements differ in how many they have.
     const auto g = static_cast<std::size_t>(group[e]);
-    rays[g] += 1.0;
+    members[g] += 1.0;
+    rays[g] += this->Carlo->OwnRays(e);
     for (std::size_t b = 0; b < nb; ++b)
     {
       const double v = this->VisibilityError[e * nb + b];
@@ -549,9 +560,35 @@ void RadiosityLevel::PoolSampling(const RadiosityContext& context)
     for (std::size_t b = 0; b < nb; ++b)
     {
       double& v = this->VisibilityError[e * nb + b];
-      const double pooled = square[g * nb + b] / rays[g] / this->Carlo->Rays(e);
+      const double pooled = square[g * nb + b] / members[g] / this->Carlo->Rays(e);
       v = std::sqrt(0.5 * (v * v + pooled));
     }
+  }
+  this->BoundUnmet(context, group, rays, square);
+}
+
+/// Where N rays of a neighbourhood met nothing that sends light, the share of it that does is below
+/// 3/N with 95 %: so much of the greatest radiosity may arrive all the same. Nothing where no surface
+/// is before the plane.
+void RadiosityLevel::BoundUnmet(const RadiosityContext& context,
+  const std::vector<std::int32_t>& group, const std::vector<double>& rays, const Values& square)
+{
+  const std::size_t nb = context.Bands;
+  Values greatest(nb, 0.0);
+  for (std::size_t k = 0; k < this->Leaving.size(); ++k)
+  {
+    greatest[k % nb] = std::max(greatest[k % nb], this->Leaving[k]);
+  }
+  for (std::size_t k = 0; k < this->VisibilityError.size(); ++k)
+  {
+    const Patch& p = this->Elements.GetPatches()[k / nb];
+    const auto g = static_cast<std::size_t>(group[k / nb]);
+    if (square[g * nb + k % nb] > 0.0 || this->Gathered[k] > 0.0 || !(rays[g] > 0.0) ||
+      context.Blind()[static_cast<std::size_t>(p.Triangle)][p.Side])
+    {
+      continue;
+    }
+    this->VisibilityError[k] = 3.0 / CarloCoverage / rays[g] * greatest[k % nb];
   }
 }
 

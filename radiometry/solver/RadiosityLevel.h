@@ -11,6 +11,8 @@
 #include "radiometry/solver/ElementOptics.h"
 #include "radiometry/solver/RadiositySimulation.h"
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,11 +36,18 @@ struct RadiosityContext
   double Tolerance = 0.01; // of the exchange at the present step, relative
   std::shared_ptr<const SpecularSurfaces> Paths; // over which light is followed; null: it is not
 
+  /// Sides of triangles that no light can reach from another surface (BlindSides.h); found when first
+  /// asked for.
+  const std::vector<std::array<std::uint8_t, 2>>& Blind() const;
+
   ExchangeOptions Exchange() const;
   /// Exchange with emitters and points, for which rays are of no use in a convex scene.
   ExchangeOptions Sight() const;
   DirectOptions Direct(double secondsLeft) const;
   SpecularLightOptions Mirrored(double secondsLeft) const;
+
+private:
+  mutable std::vector<std::array<std::uint8_t, 2>> BlindSides;
 };
 
 /// Half-widths that cover 95 %: of a normal error, and of one estimated from eight batches by rays
@@ -141,6 +150,8 @@ private:
   void CheckEmission(const RadiosityContext& context) const;
   void SumBounces(const RadiosityContext& context, const DiffuseScattering& scattering);
   void PoolSampling(const RadiosityContext& context);
+  void BoundUnmet(const RadiosityContext& context, const std::vector<std::int32_t>& group,
+    const std::vector<double>& rays, const Values& square);
   void AddReflectedSampling(const RadiosityContext& context, const DiffuseScattering& scattering);
   void Discretise(const RadiosityContext& context, const DiffuseScattering& scattering,
     const Values& source, const StageProgress& stage);

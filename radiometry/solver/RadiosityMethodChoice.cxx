@@ -15,6 +15,9 @@ namespace
 
 constexpr double MiB = 1024.0 * 1024.0;
 constexpr double PairSeconds = 4e-6;
+/// Elements whose pairs are few enough in any case, and those worth their cost by the tolerance.
+constexpr double FewestPaired = 1200.0;
+constexpr double RaysOfPairs = 2.5;
 constexpr double LinkedSeconds = 3e-4; // of an element's links and what they need, on one thread
 /// Elements from which links between clusters are preferred to rays.
 constexpr std::size_t FewestLinked = 10000;
@@ -56,13 +59,14 @@ std::size_t RadiosityRun::DenseLimit() const
 
 std::size_t RadiosityRun::AutomaticLimit() const
 {
-  // Where nothing hides anything pairs need no rays; else other ways are the cheaper to all but
-  // the finest tolerances.
+  // Pairs grow with the elements' square, rays with that of the accuracy: where something may hide
+  // something, n^2/2 pairs cost as much as rays to the tolerance from n elements at some 2.5/tolerance^2.
   const std::size_t limit = this->DenseLimit();
+  const double tolerance = this->Context.Options.RelativeTolerance;
   const bool rays = this->Context.Options.Method == RadiosityMethod::Auto &&
-    this->Context.Options.Occlusion && !this->Context.Convex &&
-    this->Context.Options.RelativeTolerance >= 0.005;
-  return rays ? std::min<std::size_t>(limit, 1024) : limit;
+    this->Context.Options.Occlusion && !this->Context.Convex;
+  const double few = std::max(FewestPaired, RaysOfPairs / (tolerance * tolerance));
+  return rays && few < static_cast<double>(limit) ? static_cast<std::size_t>(few) : limit;
 }
 
 std::size_t RadiosityRun::MostElements(RadiosityMethod method, std::size_t coarsest) const

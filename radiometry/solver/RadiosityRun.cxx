@@ -117,8 +117,8 @@ bool RadiosityRun::Resume(const StageProgress& stage)
   return true;
 }
 
-bool RadiosityRun::SolveLevel(
-  RadiosityLevel& level, RadiosityState& state, const StageProgress& stage)
+bool RadiosityRun::SolveLevel(RadiosityLevel& level, const ElementSet& coarsest,
+  RadiosityState& state, const StageProgress& stage)
 {
   const auto part = [&](double from, double to, const char* name) {
     StageProgress p = stage;
@@ -136,7 +136,7 @@ bool RadiosityRun::SolveLevel(
   }
   if (!level.F)
   {
-    this->Timed("exchange", [&] { this->BuildOperator(level, part(0.2, 0.8, "exchange")); });
+    this->Timed("exchange", [&] { this->BuildOperator(level, coarsest, part(0.2, 0.8, "exchange")); });
   }
   if (!(level.SolvedFor > 0.0 && level.SolvedFor <= this->Context.Options.RelativeTolerance))
   {
@@ -197,7 +197,7 @@ void RadiosityRun::Follow(const ElementSet& coarsest, const StageProgress& stage
   for (;;)
   {
     RadiosityState state;
-    const bool met = this->SolveLevel(*level, state, part(0.0, 1.0, ""));
+    const bool met = this->SolveLevel(*level, coarsest, state, part(0.0, 1.0, ""));
     begin = part(0.0, 1.0, "").End;
     level->MetShare = this->KeptMetShare >= 0.0 ? level->MetShare : this->Result.MetShare;
     this->Result.Outcome = this->Ended(met, *level, coarsest);

@@ -92,7 +92,8 @@ struct RadiosityRun
   /// The level that the run before left, made ready; false: there is none.
   bool Resume(const StageProgress& stage);
   /// Operator, solution, and values with their errors.
-  bool SolveLevel(RadiosityLevel& level, RadiosityState& state, const StageProgress& stage);
+  bool SolveLevel(RadiosityLevel& level, const ElementSet& coarsest, RadiosityState& state,
+    const StageProgress& stage);
   /// What reflections beyond those that were counted, or that matter, would add.
   void CountBounces(const RadiosityLevel& level);
   /// Why the run ends here; empty: it goes on.
@@ -119,7 +120,8 @@ struct RadiosityRun
     RadiosityMethod method, const ElementSet& coarsest, const StageProgress& stage);
   std::unique_ptr<RadiosityLevel> Next(const RadiosityAdvance& advance,
     std::unique_ptr<RadiosityLevel> level, const ElementSet& coarsest, const StageProgress& stage);
-  void BuildOperator(RadiosityLevel& level, const StageProgress& stage);
+  void BuildOperator(
+    RadiosityLevel& level, const ElementSet& coarsest, const StageProgress& stage);
   RadiosityAdvance Decide(const RadiosityLevel& level, const ElementSet& coarsest,
     const RadiosityState& state);
   RadiosityAdvance DecideRays(const RadiosityLevel& level, const ElementSet& coarsest,
@@ -134,15 +136,28 @@ struct RadiosityRun
     const std::vector<std::uint8_t>& unfinished, RadiosityAdvance& advance, double& ratio);
 
   // RadiosityPrediction.cxx
-  /// Seconds that a level will still take, method by method.
+  /// Seconds that a level will still take, method by method; below 0: it is too early to tell.
   double Remaining(const RadiosityLevel& level, const ElementSet& coarsest,
     const RadiosityState& state) const;
   /// Of the final gather at points that follows the run.
   double AfterSeconds() const;
   double RemainingRays(const RadiosityLevel& level, const RadiosityState& state) const;
   double RemainingPairs(const RadiosityLevel& level, const ElementSet& coarsest) const;
-  double RemainingLinks(
-    const RadiosityLevel& level, const ElementSet& coarsest, const RadiosityState& state) const;
+  double RemainingLinks(const RadiosityLevel& level) const;
+  /// Tells the run's time from the progress of an operator that is likely to be the last.
+  class OperatorClock : public Monitor
+  {
+  public:
+    OperatorClock(RadiosityRun& run, const RadiosityLevel& level, const StageProgress& stage);
+    bool Progress(double fraction, const char* stage) override;
+
+  private:
+    RadiosityRun& Run;
+    const RadiosityLevel& Level;
+    StageProgress Stage;
+    double Start;
+    bool Said = false;
+  };
 
   // RadiosityRefinement.cxx
   /// Finer where first light is uneven (up to `uneven` elements), and where small things stand

@@ -3,6 +3,7 @@
 
 #include "radiometry/formfactor/PointGather.h"
 #include "radiometry/scene/InputError.h"
+#include "radiometry/solver/BlindSides.h"
 #include "radiometry/solver/RadiosityEvaluation.h"
 #include "radiometry/solver/RadiosityRun.h"
 
@@ -64,8 +65,12 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   const ElementOptics optics(m.Context.Geometry, elements, m.Context.Options.Emission,
     m.Context.Options.Transmission);
   const auto positive = [](double v) { return v > 0.0; };
-  const bool reflects = m.Context.Options.Interreflection && !optics.Scattering().Black();
-  const bool emits = std::any_of(optics.Exitance.begin(), optics.Exitance.end(), positive);
+  const bool faces = m.Context.Paths || !m.Context.Options.SurfaceOnly ||
+    !AllBlind(m.Context.Geometry, m.Context.Blind(), m.Context.Options.BackFaces);
+  const bool reflects =
+    faces && m.Context.Options.Interreflection && !optics.Scattering().Black();
+  const bool emits =
+    faces && std::any_of(optics.Exitance.begin(), optics.Exitance.end(), positive);
   const bool lit = emits || !m.Context.Geometry.GlobalAmbient.empty() ||
     std::any_of(m.Context.Geometry.Lights.begin(), m.Context.Geometry.Lights.end(),
       [](const Light& light) { return light.Enabled; });
@@ -82,8 +87,10 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
     m.Timed("light over mirrors", [&] { level->AddMirrored(m.Context, m.Left(), stage); });
     EvaluateRadiosity(m.Context, *level, "direct light", m.Result, nullptr);
     m.Finest = std::move(level);
-    m.Result.MethodWhy = "none: nothing is reflected";
+    m.Result.MethodWhy =
+      faces ? "none: nothing is reflected" : "none: no surface that reflects faces another";
     m.Result.Outcome = "direct light is all there is";
+    m.Predict(0.0, stage);
     return m.Result;
   }
   m.Follow(elements, stage);

@@ -63,6 +63,7 @@ struct RadiosityOptions
   bool PathTransmission = false;  // what surfaces send is followed through panes
   bool LightVisibility = false;   // how much of each light arrives is wanted, too
   bool PilotOnly = false; // end where the cost of the run is known (RunCost::PredictedSeconds)
+  bool SurfaceOnly = false; // no values off the surface will be asked for (IrradianceAt)
   double SecondsBefore = 0.0;  // that the caller spent: they count in what is predicted
   double SecondsForPoints = 0.0; // beside TimeBudget, for IrradianceAt
   std::size_t PointsAfter = 0; // at which values will be wanted when the run has ended: the same

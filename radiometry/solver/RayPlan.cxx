@@ -17,6 +17,11 @@ namespace
 constexpr double Finished = 0.965;
 /// What neighbours need counts that much.
 constexpr double Neighbourhood = 0.6;
+/// Of the mean over all, what each gets: cells that meet the tolerance by light that is sure should not
+/// be the worst of all.
+constexpr double Everywhere = 0.3;
+/// What rays may take of what is allowed, where nothing is known of the rest.
+constexpr double RoughRoom = 0.85;
 constexpr double MostRays = 32768.0; // of an element
 constexpr double LeastMore = 1.2; // fewer are not worth a step
 constexpr double FewRays = 256.0, FewStep = 8.0, ManyStep = 64.0;
@@ -50,9 +55,10 @@ std::array<std::vector<double>, 2> Needs(const RadiosityLevel& level, const Cell
   return needs;
 }
 
-/// Marks the cells to finish, cheapest first. Returns the share that is beyond rays.
+/// Marks the cells to finish, cheapest first; `most` gets what the dearest of them needs. Returns the
+/// share that is beyond rays.
 double Choose(const CellStates& states, const std::array<std::vector<double>, 2>& needs,
-  std::array<std::vector<std::uint8_t>, 2>& chosen)
+  std::array<std::vector<std::uint8_t>, 2>& chosen, double& most)
 {
   std::vector<Candidate> candidates;
   double area = 0.0, count = 0.0, openArea = 0.0, open = 0.0;
@@ -90,6 +96,7 @@ double Choose(const CellStates& states, const std::array<std::vector<double>, 2>
     done += 1.0;
     doneArea += states[c.Side][c.Cell].Area;
     chosen[c.Side][c.Cell] = 1;
+    most = c.Need;
   }
   return count > 0.0 ? std::max(open / count, openArea / area) : 0.0;
 }
@@ -102,18 +109,22 @@ RayPlan PlanRays(
   RayPlan plan;
   std::array<std::vector<std::uint8_t>, 2> chosen;
   const std::array<std::vector<double>, 2> needs = Needs(level, states);
-  plan.Open = Choose(states, needs, chosen);
+  double most = 1.0;
+  plan.Open = Choose(states, needs, chosen, most);
   const std::size_t n = level.Elements.Size();
   const std::vector<Patch>& patches = level.Elements.GetPatches();
   std::vector<double> need(n, 0.0);
   std::size_t count = 0;
   const std::vector<std::int32_t> group = level.Elements.Groups(context.Geometry, 2, count);
   std::vector<double> together(count, 0.0), members(count, 0.0);
+  double all = 0.0;
   for (std::size_t e = 0; e < n; ++e)
   {
     const Patch& p = patches[e];
     const auto c = static_cast<std::size_t>(p.Cell);
-    need[e] = chosen[p.Side][c] ? needs[p.Side][c] : 0.0;
+    // The others get what the dearest of these do: they are wrong, too.
+    need[e] = chosen[p.Side][c] ? needs[p.Side][c] : std::min(most, needs[p.Side][c]);
+    all += need[e] * level.Carlo->Rays(e);
     const auto g = static_cast<std::size_t>(group[e]);
     together[g] += need[e] * level.Carlo->Rays(e);
     members[g] += 1.0;
@@ -124,9 +135,13 @@ RayPlan PlanRays(
     const auto g = static_cast<std::size_t>(group[e]);
     const double has = std::max(1, level.Carlo->Rays(e));
     const double own = need[e] > 1.0 ? std::max(LeastMore, need[e]) : need[e];
-    const double wanted =
-      std::min(MostRays, std::max(own * has, Neighbourhood * together[g] / members[g]));
+    const double wanted = std::min(MostRays,
+      std::max({ own * has, Neighbourhood * together[g] / members[g],
+        Everywhere * all / static_cast<double>(n) }));
     plan.Wanted += std::max(has, wanted);
+    const CellState& cell = states[patches[e].Side][static_cast<std::size_t>(patches[e].Cell)];
+    plan.Rough +=
+      std::max(has, std::min(std::pow(cell.Visibility / RoughRoom, 2) * has, MostRays));
     if (wanted >= LeastMore * has)
     {
       const double more = std::min(wanted, (has < FewRays ? FewStep : ManyStep) * has) -

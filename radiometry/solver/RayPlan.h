@@ -15,6 +15,7 @@ struct RayPlan
   std::vector<std::int32_t> Rays; // to add to each element
   double Total = 0.0;             // of them
   double Wanted = 0.0; // rays in all that the level needs, those it has and those past this step too
+  double Rough = 0.0;  // the same by what rays say of their own errors alone
   double Open = 0.0;   // share of the cells or of their area (the greater) that no ray finishes
 };
 

@@ -239,3 +239,64 @@ TEST(RadiosityCourse, WhatChangesTheLightIsSolvedAgain)
   scene.Lights[0].Position.x += 1e-9;
   EXPECT_GT(Spent(run(), "solve"), 0.0);
 }
+
+TEST(RadiosityCourse, NothingIsBuiltWhereNoSurfaceFacesAnother)
+{
+  // A floor under a body that only blocks light: what is reflected meets nothing that receives.
+  test::Mesh mesh;
+  mesh.AddGrid({ -2, -2, 0 }, { 4, 0, 0 }, { 0, 4, 0 }, 6, 6);
+  Scene scene = mesh.ToScene(0.8);
+  Light light;
+  light.Position = Vec3{ 0.3, 0.2, 2.0 } - scene.Origin;
+  light.Intensity = { 20.0 };
+  scene.Lights.push_back(light);
+  const auto first = static_cast<std::int32_t>(scene.Points.size());
+  for (const Vec3& p : { Vec3{ -0.5, -0.5, 1.0 }, Vec3{ 0.5, -0.5, 1.0 }, Vec3{ 0.0, 0.5, 1.2 } })
+  {
+    scene.Points.push_back(p - scene.Origin);
+  }
+  scene.Triangles.push_back({ first, first + 2, first + 1 });
+  scene.TriangleCell.push_back(-1);
+  for (const auto method :
+    { RadiosityMethod::Dense, RadiosityMethod::Hierarchical, RadiosityMethod::MonteCarlo })
+  {
+    const OcclusionScene occluders(scene);
+    RadiosityOptions options = Options(method, 0.02);
+    options.SurfaceOnly = true;
+    RadiositySimulation simulation(scene, occluders, options);
+    const RadiosityResult r = simulation.Run();
+    EXPECT_EQ(r.Samples, 0);
+    EXPECT_EQ(r.OperatorBytes, 0u);
+    EXPECT_NE(r.MethodWhy.find("faces another"), std::string::npos) << r.MethodWhy;
+    EXPECT_GT(MeanIrradiance(scene, r), 0.0);
+  }
+}
+
+TEST(RadiosityCourse, WhatNoRayMetHasABound)
+{
+  // A small lit plate far above the end of a long black floor: few rays from the floor meet it.
+  test::Mesh mesh;
+  mesh.AddGrid({ 0, 0, 0 }, { 40, 0, 0 }, { 0, 2, 0 }, 20, 1);
+  mesh.AddGrid({ 0, 1, 2.0 }, { 0, 0.2, 0 }, { 0.2, 0, 0 }, 1, 1);
+  Scene scene = mesh.ToScene(0.5);
+  Light light;
+  light.Position = Vec3{ 0.1, 1.1, 1.5 } - scene.Origin;
+  light.Intensity = { 5.0 };
+  scene.Lights.push_back(light);
+  const OcclusionScene occluders(scene);
+  RadiosityOptions options = Options(RadiosityMethod::MonteCarlo, 0.5);
+  options.Refinement = RefinementMode::Off;
+  RadiositySimulation sampled(scene, occluders, options);
+  const RadiosityResult rays = sampled.Run();
+  RadiosityOptions sure = Options(RadiosityMethod::Dense, 0.01);
+  RadiositySimulation exact(scene, occluders, sure);
+  const RadiosityResult pairs = exact.Run();
+  std::size_t held = 0;
+  for (std::size_t k = 0; k < pairs.Irradiance[0].Values.size(); ++k)
+  {
+    EXPECT_GT(rays.Irradiance[0].Errors[k], 0.0) << k;
+    held += std::abs(rays.Irradiance[0].Values[k] - pairs.Irradiance[0].Values[k]) <=
+      rays.Irradiance[0].Errors[k] + pairs.Irradiance[0].Errors[k];
+  }
+  EXPECT_GE(static_cast<double>(held), 0.95 * static_cast<double>(pairs.Irradiance[0].Values.size()));
+}
