@@ -564,17 +564,21 @@ void RadiosityLevel::PoolSampling(const RadiosityContext& context)
       v = std::sqrt(0.5 * (v * v + pooled));
     }
   }
-  this->BoundUnmet(context, group, rays, square);
+  this->BoundUnmet(context, group, rays);
 }
 
 /// Where N rays of a neighbourhood met nothing that sends light, the share of it that does is below
 /// 3/N with 95 %: so much of the greatest radiosity may arrive all the same. Nothing where no surface
 /// is before the plane.
 void RadiosityLevel::BoundUnmet(const RadiosityContext& context,
-  const std::vector<std::int32_t>& group, const std::vector<double>& rays, const Values& square)
+  const std::vector<std::int32_t>& group, const std::vector<double>& rays)
 {
   const std::size_t nb = context.Bands;
-  Values greatest(nb, 0.0);
+  Values greatest(nb, 0.0), met(rays.size() * nb, 0.0);
+  for (std::size_t k = 0; k < this->Gathered.size(); ++k)
+  {
+    met[static_cast<std::size_t>(group[k / nb]) * nb + k % nb] += std::max(0.0, this->Gathered[k]);
+  }
   for (std::size_t k = 0; k < this->Leaving.size(); ++k)
   {
     greatest[k % nb] = std::max(greatest[k % nb], this->Leaving[k]);
@@ -583,12 +587,13 @@ void RadiosityLevel::BoundUnmet(const RadiosityContext& context,
   {
     const Patch& p = this->Elements.GetPatches()[k / nb];
     const auto g = static_cast<std::size_t>(group[k / nb]);
-    if (square[g * nb + k % nb] > 0.0 || this->Gathered[k] > 0.0 || !(rays[g] > 0.0) ||
+    if (met[g * nb + k % nb] > 0.0 || !(rays[g] > 0.0) ||
       context.Blind()[static_cast<std::size_t>(p.Triangle)][p.Side])
     {
       continue;
     }
-    this->VisibilityError[k] = 3.0 / CarloCoverage / rays[g] * greatest[k % nb];
+    this->VisibilityError[k] =
+      std::max(this->VisibilityError[k], 3.0 / CarloCoverage / rays[g] * greatest[k % nb]);
   }
 }
 

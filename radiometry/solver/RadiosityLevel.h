@@ -151,7 +151,7 @@ private:
   void SumBounces(const RadiosityContext& context, const DiffuseScattering& scattering);
   void PoolSampling(const RadiosityContext& context);
   void BoundUnmet(const RadiosityContext& context, const std::vector<std::int32_t>& group,
-    const std::vector<double>& rays, const Values& square);
+    const std::vector<double>& rays);
   void AddReflectedSampling(const RadiosityContext& context, const DiffuseScattering& scattering);
   void Discretise(const RadiosityContext& context, const DiffuseScattering& scattering,
     const Values& source, const StageProgress& stage);
