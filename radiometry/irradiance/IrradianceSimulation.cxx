@@ -151,6 +151,9 @@ private:
   std::unique_ptr<IrradianceKept> Values;
 };
 
+/// Seconds a triangle or point that bounds on what is left out take.
+constexpr double BoundSeconds = 3e-6;
+
 DirectOptions DirectOf(const IrradianceOptions& options, const EffectPlan& plan)
 {
   DirectOptions direct;
@@ -233,13 +236,24 @@ IrradianceResult SimulateIrradiance(const Scene& given, const std::vector<Surfac
       kept.Keep();
     }
   };
+  // Bounds on what is left out come after all values.
+  const double bounding = plan.LeavesOut()
+    ? BoundSeconds * static_cast<double>(scene.ReceiverTriangles + points.size())
+    : 0.0;
+  IrradianceOptions limited = options;
+  limited.TimeBudget =
+    options.TimeBudget > 0.0 ? std::max(1e-9, options.TimeBudget - bounding) : 0.0;
   std::int64_t rays = 0;
   bool timedOut = false;
   try
   {
     IrradianceCourse course(
-      scene, occluders, points, options, direct, sides, *kept, result, monitor);
-    result.Cost.PredictedSeconds = course.Pilot();
+      scene, occluders, points, limited, direct, sides, *kept, result, monitor);
+    result.Cost.PredictedSeconds = course.Pilot() + bounding;
+    if (options.TimeBudget > 0.0)
+    {
+      result.Cost.PredictedSeconds = std::min(result.Cost.PredictedSeconds, options.TimeBudget);
+    }
     result.Cost.PredictedAt = result.Convergence.Elapsed();
     if (monitor)
     {
