@@ -61,6 +61,33 @@ bool LightsInside(const Scene& scene)
   return true;
 }
 
+/// How the surfaces that receive stand to each other: what only blocks light sends none.
+Convexity AmongReceivers(const Scene& scene, Convexity all)
+{
+  if (scene.Triangles.size() == scene.ReceiverTriangles || scene.ReceiverTriangles == 0)
+  {
+    return all;
+  }
+  Scene part;
+  std::vector<std::int32_t> number(scene.Points.size(), -1);
+  for (std::size_t t = 0; t < scene.ReceiverTriangles; ++t)
+  {
+    std::array<std::int32_t, 3> corners = scene.Triangles[t];
+    for (std::int32_t& c : corners)
+    {
+      std::int32_t& n = number[static_cast<std::size_t>(c)];
+      if (n < 0)
+      {
+        n = static_cast<std::int32_t>(part.Points.size());
+        part.Points.push_back(scene.Points[static_cast<std::size_t>(c)]);
+      }
+      c = n;
+    }
+    part.Triangles.push_back(corners);
+  }
+  return FindConvexity(part);
+}
+
 } // namespace
 
 SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& switches,
@@ -115,7 +142,8 @@ SceneEffects::SceneEffects(const Scene& scene, const std::vector<EffectSwitch>& 
                                       : "a convex room with its lights inside: nothing stands between"),
     "surfaces may stand between a light and a cell");
   plan.Decide(Effect::Interreflection,
-    (reflectance > 0.0 || diffused > 0.0) && (convexity != Convexity::Body || backs) && lit,
+    (reflectance > 0.0 || diffused > 0.0) &&
+      (AmongReceivers(scene, convexity) != Convexity::Body || backs || freePoints) && lit,
     abilities.Interreflection,
     reflectance <= 0.0 && diffused <= 0.0 ? "no surface reflects diffusely"
                        : (lit ? "no front faces another" : "no light is on"),

@@ -110,6 +110,26 @@ TEST(EffectPlan, OffLeavesOutAndBoundsAndOnForces)
   EXPECT_EQ(SimulateIrradiance(scene, {}, options).Cells[0].Values, full.Cells[0].Values);
 }
 
+TEST(EffectPlan, WhatOnlyBlocksLightReflectsNoneAndAFreeSensorSeesTheFloor)
+{
+  test::Mesh mesh;
+  mesh.AddGrid({ -1, -1, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, 2, 2);
+  const std::size_t floor = mesh.Triangles.size();
+  mesh.AddBox({ 0, 0, 0.3 }, { 0.5, 0.5, 0.6 }, 1, false);
+  Scene scene = mesh.ToScene();
+  scene.ReceiverTriangles = floor; // the box only blocks light
+  std::fill(scene.TriangleCell.begin() + static_cast<std::ptrdiff_t>(floor),
+    scene.TriangleCell.end(), -1);
+  scene.Lights = { MakePoint(scene, { -0.5, 0, 1 }) };
+  EffectAbilities all;
+  all.Interreflection = true;
+  const SceneEffects blocked(scene, Auto, all);
+  EXPECT_TRUE(blocked.Plan().Simulates(Effect::Occlusion));
+  EXPECT_FALSE(blocked.Plan()[Effect::Interreflection].Present);
+  const std::vector<SurfacePoint> sensor{ { Vec3{ 0, 0, 0.2 } - scene.Origin, { 0, 0, -1 }, -1, {} } };
+  EXPECT_TRUE(SceneEffects(scene, Auto, all, sensor).Plan().Simulates(Effect::Interreflection));
+}
+
 TEST(EffectPlan, EmptySceneIsPlannedToo)
 {
   const Scene empty;
