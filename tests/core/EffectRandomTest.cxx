@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/core/EffectRandomRuns.h"
+#include "tests/core/TestScenes.h"
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,30 @@ TEST_P(EffectRandom, BoundsHold)
   std::cout << share.Count << " scenes, " << all.Values << " values: " << all.Equal
             << " the same to the last bit, " << all.Bounded << " within the bound without errors; "
             << withPlan << " s, with all effects on " << on << " s\n";
+}
+
+/// A sensor above the middle of the lit top of a box gets rho E F, F by the closed form of a corner.
+TEST(EffectRandomFinds, SensorsAroundAConvexBodyGetWhatItReflects)
+{
+  Mesh mesh;
+  mesh.AddBox({ -1, -1, -1 }, { 1, 1, 0 }, 2, false);
+  RandomScene scene;
+  scene.Scene = mesh.ToScene(0.5);
+  Light sun;
+  sun.Type = LightType::Directional;
+  sun.Intensity = { 1.0 };
+  scene.Scene.Lights = { sun };
+  scene.RelativeTolerance = 0.01;
+  SurfacePoint sensor;
+  sensor.Point = Vec3{ 0, 0, 1 } - scene.Scene.Origin;
+  sensor.Normal = { 0, 0, -1 };
+  scene.Points = { sensor };
+  const EffectRun run = Simulate(scene, Simulation::Radiosity, All(EffectSwitch::Auto));
+  const EffectRun::Field* points = run.Find("points");
+  ASSERT_TRUE(points && points->Values.size() == 1);
+  const double exact = 0.5 * (4.0 / std::acos(-1.0)) * std::sqrt(0.5) * std::atan(std::sqrt(0.5));
+  EXPECT_NEAR(points->Values[0], exact, points->Errors[0] + 1e-12);
+  EXPECT_LT(points->Errors[0], 0.05 * exact);
 }
 
 INSTANTIATE_TEST_SUITE_P(Direct, EffectRandom,
