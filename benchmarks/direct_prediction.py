@@ -133,12 +133,11 @@ def timed(run, longest=0.0):
         if longest > 0.0 and said[0] > longest:
             run.SetAbortExecute(1)
 
-    if longest > 0.0:
-        run.AddObserver("AnyEvent", lambda *_: predicted()
-                        if not said and run.GetPredictedSeconds() >= 0.0 else None)
+    seen = run.AddObserver(vr.vtkIrradianceFilter.PredictedEvent, predicted)
     begin = time.monotonic()
     run.Update()
     seconds = time.monotonic() - begin
+    run.RemoveObserver(seen)
     return seconds, said
 
 
