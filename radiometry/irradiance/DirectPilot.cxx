@@ -99,6 +99,9 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
   };
   const auto workers = static_cast<std::size_t>(this->Workers());
   DirectKind::Limits limits;
+  limits.Clock = &clock;
+  limits.Until = most;
+  bool late = false; // some items could not be brought to the tolerance in that time
   const DirectKind::Tally tally = this->TallyOf(kind);
   std::size_t done = 0;
   ItemCost warm; // what the first ones take is not what the others do
@@ -108,7 +111,7 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
     {
       const std::vector<std::uint32_t> chunk = some(count);
       done += chunk.size();
-      work.Run(chunk, limits, stage, &warm, tally);
+      late = !work.Run(chunk, limits, stage, &warm, tally) || late;
     }
   }
   ItemCost cost;
@@ -129,7 +132,7 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
     const std::vector<std::uint32_t> chunk = some(std::min(next, enough - cost.Items));
     done += chunk.size();
     const ConvergenceRecord round;
-    work.Run(chunk, limits, stage, &cost, tally);
+    late = !work.Run(chunk, limits, stage, &cost, tally) || late;
     wall += round.Elapsed();
     next *= 2;
   }
@@ -144,6 +147,12 @@ void DirectRun<Receiver>::PilotOf(std::size_t kind, const StageProgress& stage, 
   const double byClock = ClockShare * wall * static_cast<double>(left) /
     static_cast<double>(std::max<std::size_t>(1, cost.Items));
   this->Rest[kind] = std::max(byThreads, byClock);
+  if (late)
+  {
+    // Costlier than can be told: more than there is time for.
+    constexpr double pilots = 100.0;
+    this->Rest[kind] = std::max(this->Rest[kind], pilots * most);
+  }
 }
 
 template <typename Receiver>
