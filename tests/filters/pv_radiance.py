@@ -24,7 +24,10 @@ radiance = Radiance(Input=surface, Lights=light)
 radiance.UpdatePipeline()
 assert field(radiance, "ViewPoint")[2] > 1.0, "an eye that sees it all"
 assert radiance.CellData["Radiance"].GetRange()[0] > 0.0
-assert output(radiance, 1).GetNumberOfRows() == 9
+plan = output(radiance, 1)
+effects = [plan.GetValueByName(k, "Effect").ToString() for k in range(plan.GetNumberOfRows())]
+assert {"Occlusion", "Interreflection", "SpecularTransport", "Transmission", "BackFaces", "Emission",
+        "Environment", "SpotShape", "Attenuation"} <= set(effects), effects
 radiance.ViewPoint = [0.5, 0.5, 3.0]
 radiance.UpdatePipeline()
 assert field(radiance, "ViewPoint") == (0.5, 0.5, 3.0)
