@@ -215,6 +215,7 @@ PlannedRadiosity SimulatePlannedRadiosity(const Scene& given,
   EffectPlan& plan = effects.Plan();
   const Scene& scene = effects.Simulated();
   options.Interreflection = plan.Simulates(Effect::Interreflection);
+  options.Forced = plan[Effect::Interreflection].Wish == EffectSwitch::On;
   // Where nothing can stand between, rays may still be traced: they are how Monte Carlo exchanges.
   options.Occlusion = plan.Simulates(Effect::Occlusion) || !plan[Effect::Occlusion].Present;
   options.BackFaces = plan.Simulates(Effect::BackFaces);

@@ -16,7 +16,7 @@ namespace
 constexpr double MiB = 1024.0 * 1024.0;
 constexpr double PairSeconds = 4e-6;
 /// Elements whose pairs are few enough in any case, and those worth their cost by the tolerance.
-constexpr double FewestPaired = 1200.0;
+constexpr double FewestPaired = 600.0;
 constexpr double RaysOfPairs = 2.5;
 constexpr double LinkedSeconds = 3e-4; // of an element's links and what they need, on one thread
 /// Elements from which links between clusters are preferred to rays.

@@ -65,7 +65,8 @@ const RadiosityResult& RadiositySimulation::Run(const StageProgress& stage)
   const ElementOptics optics(m.Context.Geometry, elements, m.Context.Options.Emission,
     m.Context.Options.Transmission);
   const auto positive = [](double v) { return v > 0.0; };
-  const bool faces = m.Context.Paths || !m.Context.Options.SurfaceOnly ||
+  const bool faces = m.Context.Paths || m.Context.Options.Forced ||
+    !m.Context.Options.SurfaceOnly ||
     !AllBlind(m.Context.Geometry, m.Context.Blind(), m.Context.Options.BackFaces);
   const bool reflects =
     faces && m.Context.Options.Interreflection && !optics.Scattering().Black();

@@ -51,6 +51,7 @@ struct RadiosityOptions
   RadiosityMethod Method = RadiosityMethod::Auto;
   RefinementMode Refinement = RefinementMode::Auto;
   bool Interreflection = true;
+  bool Forced = false; // exchange is simulated even where no surface faces another
   int MaximumBounces = 0; // so often light that lights or emitters send is reflected; 0: for ever
   bool Occlusion = true;
   bool BackFaces = true;

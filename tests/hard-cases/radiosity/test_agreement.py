@@ -28,7 +28,7 @@ def two_rooms():
 def soup():
     rng = RNG(5)
     parts = [grid((-2, -2, -2), (4, 0, 0), (0, 4, 0), 3, 3)]
-    for _ in range(60):
+    for _ in range(30):
         c, a, b = rng.uniform(-1.5, 1.5, (3, 3))
         parts.append((np.array([c, c + 0.4 * a, c + 0.4 * b]), [(0, 1, 2)]))
     return joined(*parts)

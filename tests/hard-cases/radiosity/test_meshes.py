@@ -203,7 +203,7 @@ def test_emission_off_the_mesh_of_a_lamp_shade():
     for method in METHODS.values():
         data = with_cells(polydata(points, cells), EmittedExitance=emitted, DiffuseReflectance=rho,
                           TwoSided=np.r_[np.zeros(n), np.ones(s), np.zeros(len(lamp[1]))])
-        run = Solved(data, Method=method, RelativeTolerance=0.02)
+        run = Solved(data, Method=method, RelativeTolerance=0.05)
         back, back_error = run.values(run.output, back=True)
         gone = ((1 - rho) * areas) @ (run.e[:, 0] + back[:, 0])
         allowed = ((1 - rho) * areas) @ (run.error[:, 0] + back_error[:, 0])
