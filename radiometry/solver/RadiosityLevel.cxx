@@ -235,6 +235,7 @@ std::size_t RadiosityLevel::MemoryBytes() const
 void RadiosityLevel::AddLights(const RadiosityContext& context, const std::vector<Patch>& patches,
   double knownMean, double secondsLeft, const StageProgress& stage, Values& light, Values& error)
 {
+  const ConvergenceRecord clock;
   StageProgress part = stage;
   part.End = this->Emitters.Empty() ? stage.End : 0.5 * (stage.Begin + stage.End);
   DirectOptions options = context.Direct(secondsLeft);
@@ -268,9 +269,14 @@ void RadiosityLevel::AddLights(const RadiosityContext& context, const std::vecto
   part.End = stage.End;
   part.Name = "emitters";
   ExchangeOptions sight = context.Sight();
+  if (context.Options.TimeBudget > 0.0)
+  {
+    sight.SecondsLeft = std::max(1e-3, 0.5 * secondsLeft - clock.Elapsed());
+  }
   sight.RelativeTolerance = context.Options.RelativeTolerance;
   const EmitterResult e = ComputeEmitterIrradiance(
     context.Geometry, context.Occluders, patches, this->Emitters, sight, part);
+  this->TimedOut = this->TimedOut || e.TimedOut;
   for (std::size_t k = 0; k < light.size(); ++k)
   {
     light[k] += e.Irradiance[k];

@@ -34,6 +34,35 @@ def test_cube_of_four_metres():
             close(mean(f, "Illuminance"), 10000 / 96 / (1 - rho), 1e-3)
 
 
+def test_small_emitters_keep_the_time_budget():
+    # A lamp of surfaces that emit, behind leaves: its light is asked for with far too small a tolerance.
+    rng = np.random.default_rng(4)
+    points = vtk.vtkPoints()
+    polys = vtk.vtkCellArray()
+
+    def add(corners):
+        polys.InsertNextCell(len(corners), [points.InsertNextPoint(*c) for c in corners])
+
+    for x in range(20):
+        for y in range(20):
+            add([(x, y, 0), (x + 1, y, 0), (x + 1, y + 1, 0), (x, y + 1, 0)])
+    for x, y in ((9, 9), (10, 9), (9, 10), (10, 10)):
+        add([(x, y, 6), (x, y + 1, 6), (x + 1, y + 1, 6), (x + 1, y, 6)])
+    for center in rng.uniform((5, 5, 2), (15, 15, 5), (300, 3)):
+        add(center + rng.uniform(-0.6, 0.6, (3, 3)))
+    data = vtk.vtkPolyData()
+    data.SetPoints(points)
+    data.SetPolys(polys)
+    emitted = np.r_[np.zeros(400), np.full(4, 100.0), np.zeros(300)]
+    data = with_array(data, "EmittedExitance", emitted)
+    hasty = radiosity(data, RelativeTolerance=1e-6, TimeBudget=0.5)
+    assert hasty.GetElapsedSeconds() < 2.0, hasty.GetElapsedSeconds()
+    slow = radiosity(data, RelativeTolerance=0.05, Method=MONTE_CARLO)
+    apart = np.abs(values(hasty, "Irradiance") - values(slow, "Irradiance"))
+    within = np.hypot(values(hasty, "IrradianceError"), values(slow, "IrradianceError"))
+    assert (apart <= within).mean() >= 0.93, (apart <= within).mean()
+
+
 def test_nearly_white_cavity():
     for rho in (0.99, 0.9999, 0.999999):
         f = radiosity(room(1, 2), lamp((0.4, 0.5, 0.6), 100 * K), DiffuseReflectance=rho,
